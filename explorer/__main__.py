@@ -102,27 +102,15 @@ def _parser() -> argparse.ArgumentParser:
         ),
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
-    parser.add_argument(
-        "--host", default="127.0.0.1", metavar="ADDRESS", help="address to listen on (default: this machine only)"
-    )
+    words = "address to listen on (default: this machine only)"
+    parser.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help=words)
     parser.add_argument("--port", type=_port, default=8080, metavar="N", help="port to listen on (default 8080)")
     parser.add_argument("--design", metavar="FILE", help="design file to start from")
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
-    parser.add_argument(
-        "--allow-host",
-        metavar="NAME",
-        type=_host_name,
-        action="append",
-        default=[],
-        help="further host name by which the page is reached, as behind a reverse proxy; may be repeated",
-    )
-    parser.add_argument(
-        "--max-sessions",
-        metavar="N",
-        type=_sessions,
-        default=SESSIONS,
-        help=f"largest number of active pages (default {SESSIONS}); others wait",
-    )
+    words = "further host name by which the page is reached, as behind a reverse proxy; may be repeated"
+    parser.add_argument("--allow-host", metavar="NAME", type=_host_name, action="append", default=[], help=words)
+    words = f"largest number of active pages (default {SESSIONS}); others wait"
+    parser.add_argument("--max-sessions", metavar="N", type=_sessions, default=SESSIONS, help=words)
     return parser
 
 

@@ -96,7 +96,6 @@ class ClientConnection:
             call(self.client, "RX.awaitPlace")
 
     def leave(self) -> None:
-        """The connection has ended."""
         with self._lock:
             self._gone = True
             session, self.session = self.session, None
@@ -115,7 +114,6 @@ class ClientConnection:
 
 
 def show_dialogue(client: viser.ClientHandle, content: str) -> None:
-    """A dialogue on an empty page."""
     client.gui.main_panel.minimize()
     with client.gui.add_modal("Rotor explorer"):
         client.gui.add_html(content)
@@ -187,10 +185,8 @@ class App:
         self.pool = Processes(_WORKERS, partial(solver.prepare_worker, self._limits.cache_bytes))
         self._warmed = threading.Event()
         self.presentations = Presentations()
-        hosts, page = (
-            AllowedHosts(host, self._limits.allow_hosts),
-            with_loading_screen(viser_compat.client_html(), web.frame()),
-        )
+        hosts = AllowedHosts(host, self._limits.allow_hosts)
+        page = with_loading_screen(viser_compat.client_html(), web.frame())
         first = FirstAnswers(lambda: self._start)
         request_filter = RequestFilter(
             hosts, self._limits.connections, page, self._limits.frame_ancestors, first, lambda: not self._full
@@ -217,9 +213,7 @@ class App:
     @property
     def sessions(self) -> tuple[Session, ...]:
         """Sessions at work, in the order in which their browsers connected."""
-        return tuple(
-            connection.session for connection in tuple(self._connections.values()) if connection.session is not None
-        )
+        return tuple(one.session for one in tuple(self._connections.values()) if one.session is not None)
 
     def stop(self) -> None:
         connections, self._connections = list(self._connections.values()), {}
@@ -230,7 +224,6 @@ class App:
 
     @property
     def _full(self) -> bool:
-        """Whether all places are taken."""
         return len(self._seated) >= self._limits.sessions
 
     def _connected(self, client: viser.ClientHandle) -> None:
@@ -263,8 +256,7 @@ class App:
         memory.release_memory_soon()
 
     def _session(self, client: viser.ClientHandle, facts: PageFacts) -> Session:
-        shared = SharedServices(self.pool, self.presentations)
-        return Session(client, self._start, facts, shared)
+        return Session(client, self._start, facts, SharedServices(self.pool, self.presentations))
 
     def _warm(self) -> None:
         try:

@@ -180,7 +180,7 @@ class Page:
         )
         context.following += [probe.show, settings.show, self.history.show, lecture.show, presentation.show]
         with layout.drawers["lecture"]:
-            presentation.begin(lecture, self._views, self.optimise.hand, partial(self._hold, lecture))
+            presentation.begin(lecture, self._views, self.optimise.hand, self._hold)
 
     def _listen(self, opening: Inputs, address: Address) -> None:
         """Presses that no part of the page has for itself."""
@@ -391,11 +391,11 @@ class Page:
         for refresh in context.refreshing:
             refresh(self.latest.sliders)
 
-    def _hold(self, lecture: LecturePanel, held: bool) -> None:
+    def _hold(self, held: bool) -> None:
         """Leave what moves the page to a presenter, or give it back."""
         context = self.context
         context.held = context.keyboard.held = held
-        for part in (context.controls, self.optimise, context.display, lecture):
+        for part in (context.controls, self.optimise, context.display, self.lecture):
             part.hold(held)
         self.follower.follow((*AT_ONCE, ACTUATOR).__contains__)
 

@@ -37,8 +37,7 @@ def build_parser(command: str | None = None) -> argparse.ArgumentParser:
     words = "print a shell script that completes commands and flags with Tab"
     hint = 'Use eval "$(rotor completion)"; in zsh first run autoload -U bashcompinit && bashcompinit.'
     examples = (("Print the script", ""),)
-    added = commands.add_parser(_COMPLETION, help=words, description=hint, examples=examples)
-    added.set_defaults(run=complete)
+    commands.add_parser(_COMPLETION, help=words, description=hint, examples=examples).set_defaults(run=complete)
     return parser
 
 

@@ -44,17 +44,10 @@ def concept_picture(concept: Concept) -> Markup:
         marks += [tag("circle", cx=_x(place), cy=y(place), r=3, fill=THIS) for place in law.breaks]
     root, tip = _x(_ROOT), _x(1.0)
     ends = (tag("text", "root", x=root, y=_HEIGHT - 2), tag("text", "tip", x=tip, y=_HEIGHT - 2, text_anchor="end"))
-    return tag(
-        "svg",
-        svg.line((root, _MIDDLE), (tip, _MIDDLE), opacity=0.25),
-        tag("polyline", points=curve, fill="none", stroke="currentColor", stroke_width=2),
-        marks,
-        tag("g", ends, font_size=11, fill="currentColor", opacity=0.65),
-        viewBox=f"0 0 {_WIDTH} {_HEIGHT}",
-        width="100%",
-        role="img",
-        aria_label="what the concept moves",
-    )
+    middle = svg.line((root, _MIDDLE), (tip, _MIDDLE), opacity=0.25)
+    drawn = tag("polyline", points=curve, fill="none", stroke="currentColor", stroke_width=2)
+    words = tag("g", ends, font_size=11, fill="currentColor", opacity=0.65)
+    return svg.drawing(_WIDTH, _HEIGHT, "what the concept moves", middle, drawn, marks, words)
 
 
 def _x(r: float) -> float:

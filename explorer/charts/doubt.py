@@ -66,10 +66,8 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
     for each in best.ranges:
         first, last = (math.degrees(end) for end in each.rates)
         left, right = sorted((part(first), part(last)))
-        bar = (
-            tag("i", style=f"margin-left:{left:.0f}%;width:{right - left:.0f}%"),
-            tag("s", style=f"left:{part(rate):.0f}%"),
-        )
+        drawn = tag("i", style=f"margin-left:{left:.0f}%;width:{right - left:.0f}%")
+        bar = drawn, tag("s", style=f"left:{part(rate):.0f}%")
         reach = f"{number(first, 1)} … {number(last, 1)}"
         cells = tag("td", _cause(each, units)), tag("td", tag("div", bar)), tag("td.rx-num", reach)
         rows.append(tag("tr", cells))

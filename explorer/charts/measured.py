@@ -7,7 +7,7 @@ from dataclasses import replace
 
 from explorer.charts.plots import Range, held_range
 from explorer.charts.strip import INK, now_dot, role_line
-from explorer.model.stand import as_measured, flight_powers
+from explorer.model.stand import as_measured, flight_powers, place_of
 from explorer.model.units import Units, number
 from explorer.text.status import validated
 from rotor import Design, FlightCondition, Solution, solve
@@ -56,26 +56,14 @@ class MeasuredChart:
         places = [wide * point[along] for point in measured.points]
         values = [size * point[measured.quantity] for point in measured.points]
         scatter = [size * measured.scatter_of(point) for point in measured.points]
-        computed = [
-            (wide * point.given[along], size * point.computed[measured.quantity]) for point in known if point.computed
-        ]
+        computed = [(wide * one.given[along], size * one.computed[measured.quantity]) for one in known if one.computed]
         computed.sort()
-        x = (
-            wide
-            * {
-                "mu": solution.design.condition.advance_ratio,
-                "ct": solution.ct,
-                "ct_over_sigma": solution.ct_over_sigma,
-                "collective_deg": math.degrees(solution.controls.collective),
-            }[along]
-        )
+        x = wide * place_of(solution)[along]
         y = size * now
         seen = [*values, *(value for _, value in computed), *([y] if math.isfinite(y) else [])]
         low, high = min(places), max(places)
-        words = [
-            _words(measured, value, point)
-            for value, point in zip(values, (*known, *[None] * len(values)), strict=False)
-        ]
+        points = (*known, *[None] * len(values))
+        words = [_words(measured, value, point) for value, point in zip(values, points, strict=False)]
         value, note = _summary(measured, known, solution)
         both = unit.endswith(_MILLE) and axis.endswith(_MILLE)
         return Chart(

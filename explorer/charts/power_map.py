@@ -105,11 +105,8 @@ def least_words(drawn: PowerMap, units: Units) -> str:
 
     every = drawn.task.concept.parameters
     best = ", ".join(at(*one) for one in zip(every, drawn.lowest[1], strict=True))
-    ends = [
-        at(p, p.low + part * (p.high - p.low))
-        for p, part in zip(drawn.parameters, drawn.least[:2], strict=True)
-        if min(part, 1.0 - part) < 1e-6
-    ]
+    least = zip(drawn.parameters, drawn.least[:2], strict=True)
+    ends = [at(p, p.low + part * (p.high - p.low)) for p, part in least if min(part, 1.0 - part) < 1e-6]
     beyond = f" It lies at the bound of {' and '.join(ends)}: less may lie beyond." if ends else ""
     return f"Least {total_words(drawn.least[2], units)} at {best}.{beyond}"
 
@@ -160,16 +157,10 @@ def drawing(drawn: PowerMap, twist: TwistLaw | None) -> Markup:
         look = {"fill": "none", "stroke": NOW, "stroke_width": 2.4}
         marks.append(tag("circle", cx=round(cx, 1), cy=round(cy, 1), r=4.5, **look))
     image = svg.image(_LEFT, _TOP, _WIDE, _HIGH, _picture(drawn))
-    return tag(
-        "svg",
-        tag("g.rx-map", image, data_map="", data_explorer="map"),
-        tag("g", marks, pointer_events="none"),
-        tag("g", _across(across), _up(up), _bar(), font_size=12, fill="currentColor"),
-        viewBox="0 0 300 266",
-        width="100%",
-        role="img",
-        aria_label=f"Power over {rail_name(across)} and {rail_name(up)}",
-    )
+    area = tag("g.rx-map", image, data_map="", data_explorer="map")
+    above = tag("g", marks, pointer_events="none")
+    axes = tag("g", _across(across), _up(up), _bar(), font_size=12, fill="currentColor")
+    return svg.drawing(300, 266, f"Power over {rail_name(across)} and {rail_name(up)}", area, above, axes)
 
 
 def _star(x: float, y: float) -> Markup:

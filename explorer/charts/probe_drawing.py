@@ -222,8 +222,7 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured
     """
     disk, design = solution.disk, solution.design
     fastest = design.rotor.tip_speed * float(np.hypot(disk.u_t, disk.u_p).max())
-    per_metre = design.thrust_unit / (design.rotor.blades * design.rotor.radius)
-    strongest = per_metre * float(np.hypot(disk.dct, disk.dcq).max())
+    strongest = design.thrust_per_metre * float(np.hypot(disk.dct, disk.dcq).max())
     picture, scales = drawing(probe, fastest, strongest, opened)
     return tag(
         "div.rx.rx-probe",

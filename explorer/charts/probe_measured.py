@@ -18,7 +18,7 @@ from rotor.support.arrays import Array
 from rotor.support.chart import AZIMUTH, Axis, Chart, Line, Points, Rule, Series, drawn_chart
 from rotor.support.markup import Markup, group, tag
 from rotor.validation import FlownCase, MeasuredCurve, computed_curve
-from rotor.validation.airloads import REPORTS, harmonics
+from rotor.validation.airloads import REPORTS, closed_around, harmonics
 
 LIFT = THIS
 HEIGHT = 92.0
@@ -144,7 +144,6 @@ def _chart(measured: MeasuredCurve, psi: Array, computed: Array, here: float, al
     where = "" if measured.quantity.startswith("tip_") else f" at {number(measured.r, 2)} R"
     seen = *measured.values.tolist(), *computed.tolist()
     margin = 0.05 * (max(seen) - min(seen))
-    closed = np.append(psi, psi[0] + 2.0 * math.pi), np.append(computed, computed[0])
     size = 1.0 if len(measured.psi) > 100 else 1.7
     chart = Chart(
         f"{title}{where}",
@@ -152,7 +151,7 @@ def _chart(measured: MeasuredCurve, psi: Array, computed: Array, here: float, al
         Axis(range=(min(seen) - margin, max(seen) + margin)),
         (
             Points("", np.degrees(measured.psi), measured.values, "var(--rx-dim)", size=size),
-            Line("", np.degrees(closed[0]), closed[1], THIS, width=1.8),
+            Line("", *closed_around(psi, computed), THIS, width=1.8),
         ),
         (Rule(math.degrees(here) % 360.0),),
         value=f"correlation {number(correlation(measured, psi, computed), 2)}" if alike else "",

@@ -1,7 +1,5 @@
 """A schedule as charts, words and CSV."""
 
-import csv
-import io
 import math
 from dataclasses import dataclass, field
 
@@ -18,6 +16,7 @@ from rotor.design.aircraft import reported_names
 from rotor.optimisation import Schedule, ScheduleOptimum, SchedulePlan
 from rotor.support.chart import Axis, Chart, Line, Points
 from rotor.support.markup import Content, Markup, tag
+from rotor.support.user_input import csv_text
 from rotor.trim.doubt import Doubt, change_decimals
 
 _COLUMNS = (
@@ -151,10 +150,8 @@ def verdict(progress: ScheduleProgress, units: Units = SI) -> Markup:
         ("Best fixed blade", gain.baseline - gain.fixed, fixed and fixed.doubt),
         ("Variable twist, beyond that", gain.gain, progress.fixed.gain),
     )
-    return tag(
-        "table",
-        (tag("tr", tag("td", name), tag("td.rx-num", _saved(saved, band, units))) for name, saved, band in rows),
-    )
+    cells = (tag("tr", tag("td", name), tag("td.rx-num", _saved(saved, band, units))) for name, saved, band in rows)
+    return tag("table", cells)
 
 
 def _saved(power: float, band: Doubt | None, units: Units) -> str:
@@ -166,14 +163,12 @@ def _saved(power: float, band: Doubt | None, units: Units) -> str:
 
 def csv_of(progress: ScheduleProgress) -> bytes:
     """The schedule as a CSV file; what is not known is blank."""
-    text = io.StringIO()
-    writer = csv.writer(text)
     names = reported_names(leg.flight.unusual for leg in progress.plan.conditions)
-    writer.writerow((*names, *_COLUMNS))
+    rows: list[tuple[str, ...]] = [(*names, *_COLUMNS)]
     for k, leg in enumerate(progress.plan.conditions):
         optimum, (still, moving) = progress.at(k), progress.doubts(k)
         best = None if optimum is None else optimum.best
-        writer.writerow(
+        rows.append(
             (
                 *(f"{leg.flight.numbers[name]:g}" for name in names),
                 f"{leg.hours:g}",
@@ -190,8 +185,8 @@ def csv_of(progress: ScheduleProgress) -> bytes:
     if fixed is not None and fixed.best is not None:
         hours = sum(leg.hours for leg in progress.plan.conditions)
         mean = (_kilowatt(fixed.baseline_power), *5 * ("",), _kilowatt(fixed.best.power), *_banded_cells(fixed.doubt))
-        writer.writerow(("mean", *("" for _ in names[1:]), f"{hours:g}", *mean, fixed.best.twist))
-    return text.getvalue().encode()
+        rows.append(("mean", *("" for _ in names[1:]), f"{hours:g}", *mean, fixed.best.twist))
+    return csv_text(rows).encode()
 
 
 def _banded_cells(band: Doubt | None) -> tuple[str, str]:

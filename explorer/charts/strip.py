@@ -43,7 +43,6 @@ INK, THIS, SAVING = "var(--rx-ink)", LOOKS["this"][0], LOOKS["saving"][0]
 
 
 def role_line(role: Role, x: Values, y: Values, *, label: str = "", filled: bool = False) -> Line:
-    """A line as its role looks."""
     colour, width, dashes = LOOKS[role]
     return Line(label, x, y, colour, dashes, width, filled=filled)
 
@@ -313,21 +312,13 @@ def lift_chart(
         lines.insert(0, role_line(compared, reference.disk.r, lift_per_metre(reference) / 1e3))
     low, high = (end(end(line.y) for line in lines) for end in (min, max))
     peak = float(solution.disk.r[np.argmax(lines[-1].y)])
-    return Chart(
-        "Lift",
-        _ALONG,
-        Axis("kN/m per blade", held_range(previous, min(0.0, low), high)),
-        tuple(lines),
-        value=f"peak at {peak:.2f} R",
-        note="Mean over azimuth.",
-    )
+    scale = Axis("kN/m per blade", held_range(previous, min(0.0, low), high))
+    return Chart("Lift", _ALONG, scale, tuple(lines), value=f"peak at {peak:.2f} R", note="Mean over azimuth.")
 
 
 def lift_per_metre(solution: Solution) -> Array:
     """Thrust of one blade per metre of span, mean of a revolution [N/m], (elements,)."""
-    design = solution.design
-    per_blade = design.thrust_unit / (design.rotor.blades * design.rotor.radius)
-    return solution.disk.dct.mean(axis=1) * per_blade
+    return solution.disk.dct.mean(axis=1) * solution.design.thrust_per_metre
 
 
 def _margin(r: Array, margin: Array) -> tuple[str, str]:

@@ -11,19 +11,24 @@ import msgspec
 
 from explorer.colours import RIM, DiskInk, Rgb, colour_map, css
 from explorer.model.units import SI, Units
-from explorer.picture import disk_image
+from explorer.picture.disk_image import LARGEST, SIZE, half_width
 from explorer.picture.fields import Field
 from explorer.picture.picture import disk_png
 from explorer.picture.polar import ALL_MARKS, DrawnSolution, MarkedRegion, polar_grid, region_codes
 from rotor import Solution
 from rotor.support.chart import DrawnChart, bar_ticks
-from rotor.support.markup import Attribute, Markup, group, tag
+from rotor.support.markup import Attribute, Content, Markup, group, tag
 
 Point = tuple[float, float]
 
 BODY = "var(--mantine-color-body)"
 """The page's ground, for the halo that keeps words readable on lines."""
 _HALO: dict[str, Attribute] = {"stroke": BODY, "stroke_width": 3, "paint_order": "stroke", "stroke_linejoin": "round"}
+
+
+def drawing(width: float, height: float, label: str, *content: Content) -> Markup:
+    """A drawing as wide as its place, with the words of its label for who does not see it."""
+    return tag("svg", *content, viewBox=f"0 0 {width:g} {height:g}", width="100%", role="img", aria_label=label)
 
 
 def line(
@@ -131,18 +136,13 @@ _GRADIENT_STOPS = 25
 
 
 def disk_drawing(
-    solution: Solution,
-    field: Field,
-    colour_range: Range,
-    pixels: int = disk_image.SIZE,
-    letters: float = 9.0,
-    units: Units = SI,
+    solution: Solution, field: Field, colour_range: Range, pixels: int = SIZE, letters: float = 9.0, units: Units = SI
 ) -> Markup:
     """The inside of an SVG that spans −HALF_EDGE…HALF_EDGE: nose up, advancing side right.
 
     `pixels`: along each edge of the field's picture; `letters`: their height.
     """
-    half = disk_image.half_width(100.0, min(pixels, disk_image.LARGEST))
+    half = half_width(100.0, min(pixels, LARGEST))
     png = disk_png(solution, field, colour_range, size=pixels, marks=ALL_MARKS)
     return image(-half, -half, 2 * half, 2 * half, png) + disk_marks(solution, letters, units)
 
@@ -204,12 +204,8 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
         x = 0.01 * wide * percent
         scale.append(tag("path", d=f"M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}", stroke="currentColor"))
         scale.append(text(x, 3.75 * size, word, 0.92 * size, anchor="middle"))
-    return group(
-        tag("linearGradient", stops, id=name),
-        text(0, size, field.label, size),
-        tag("rect", y=1.5 * size, width=wide, height=size, rx=1, fill=f"url(#{name})"),
-        scale,
-    )
+    bar = tag("rect", y=1.5 * size, width=wide, height=size, rx=1, fill=f"url(#{name})")
+    return group(tag("linearGradient", stops, id=name), text(0, size, field.label, size), bar, scale)
 
 
 def key_marks(solution: Solution) -> list[tuple[str, Rgb, bool]]:

@@ -6,7 +6,6 @@ blade as built: the twist law alone. `python -m explorer blade` writes it.
 
 import argparse
 from collections.abc import Sequence
-from pathlib import Path
 from typing import cast
 
 import numpy as np
@@ -18,7 +17,7 @@ from explorer.text.design_words import title_words
 from rotor import Design, load_design, make_design
 from rotor.design import PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
 from rotor.support.terminal import OneLineParser, command_words, run_command
-from rotor.support.user_input import write_whole
+from rotor.support.user_input import make_folder, write_output
 
 POINTS, STATIONS = 97, 121
 """Round a section, and from root cut-out to tip: a chord is met to 0.1 mm."""
@@ -65,13 +64,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def _run(options: argparse.Namespace) -> int:
     design = load_design(options.design) if options.design else make_design()
-    folder, content = Path(options.out), blade_stl(design)
-    path = folder / file_name(design, "-as-built.stl")
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-        write_whole(path, content)
-    except OSError as error:
-        raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give a folder") from None
+    path, content = make_folder(options.out) / file_name(design, "-as-built.stl"), blade_stl(design)
+    write_output(path, content)
     print(f"{path}: {len(content) / 1e6:.1f} MB")
     return 0
 

@@ -27,8 +27,6 @@ _USUAL = ("Angle of attack", "Induced inflow λi", "Thrust dT/dr", "Power dP/dr"
 
 @dataclass(frozen=True, eq=False)
 class ReportEntry:
-    """A design of the report."""
-
     title: str
     """The name that the user knows, for example Now."""
     solution: Solution
@@ -94,7 +92,6 @@ class DesignReport:
 
     @cached_property
     def _bands(self) -> dict[Design, Doubt]:
-        """Those that are known."""
         return {}
 
     def is_reference(self, entry: ReportEntry) -> bool:

@@ -192,12 +192,8 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     kind = change_kind(-verdict.net_saving, word)
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]
     sentence = f"Compared with {reference(verdict)}, it {needs(verdict, units)} over the mission."
-    parts = tag(
-        "figure.chart",
-        tag("figcaption", tag("b", "Extra power"), unit),
-        _balance_bars(verdict, units),
-        tag("p", tag("b", fuel_words(verdict)), data_report="fuel"),
-    )
+    fuel = tag("p", tag("b", fuel_words(verdict)), data_report="fuel")
+    parts = tag("figure.chart", tag("figcaption", tag("b", "Extra power"), unit), _balance_bars(verdict, units), fuel)
     return tag(
         "section.actuator",
         title,
@@ -217,9 +213,7 @@ def _balance_bars(verdict: Verdict, units: Units) -> Markup:
         start = 0.0 if row is rows[-1] else reached
         ends.append((start, start + row.value))
         reached += row.value
-    reach = [
-        (min(start, end - row.band), max(start, end + row.band)) for row, (start, end) in zip(rows, ends, strict=True)
-    ]
+    reach = [(min(a, b - row.band), max(a, b + row.band)) for row, (a, b) in zip(rows, ends, strict=True)]
     low, high = min(0.0, *(one for one, _ in reach)), max(0.0, *(one for _, one in reach))
     room = _WIDE - _NAME - _NUMBER
 

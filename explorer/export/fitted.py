@@ -150,9 +150,7 @@ class Fitted:
         """The twist of least power within the sliders, as their numbers, and its trim."""
         n, total = self.x.shape[1], self.power["total"]
         starts = (self.family.here, np.zeros(n), self.x[np.argmin(_totals(self.trims))])
-        found = [
-            minimize(lambda x: float(self.at(total, x[None])[0]), start, bounds=[(-1.0, 1.0)] * n) for start in starts
-        ]
+        found = [minimize(lambda x: float(self.at(total, x[None])[0]), x0, bounds=[(-1.0, 1.0)] * n) for x0 in starts]
         x = min(found, key=lambda one: one.fun).x
         values = [round(v, one.form.digits) for v, one in zip(self.family.numbers(x), self.family.handles, strict=True)]
         return values, solve(self.family.design(self.family.scaled(values)), self.solution)

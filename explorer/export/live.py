@@ -99,10 +99,8 @@ def _rotor(made: Fitted, drawn: list[_Drawn], units: Units) -> Markup:
     marks = tag("path.reverse", d=reverse) + tag("path.stall")
     box = f"{-HALF_EDGE:g} {-HALF_EDGE:g} {2 * HALF_EDGE:g} {2 * HALF_EDGE:g}"
     over = tag("svg", marks, disk_marks(made.solution, 9.0, units), viewBox=box, role="img", aria_label="The disk")
-    key = [
-        tag("span", tag("i", class_=name), title)
-        for name, title in (("stall", "stall"), *([("reverse", "reverse flow")] if lines else []))
-    ]
+    regions = (("stall", "stall"), *([("reverse", "reverse flow")] if lines else []))
+    key = [tag("span", tag("i", class_=name), title) for name, title in regions]
     bars = [tag("div", bar(one.field, one.range, f"bar-{k}"), data_scale=k) for k, one in enumerate(drawn)]
     return group(
         tag("div.tabs", tabs),

@@ -84,7 +84,6 @@ def document_html(
 
 
 def condition_line(design: Design) -> str:
-    """The flight condition in one line."""
     condition = design.condition
     speed = "hover" if design.hovering else f"advance ratio {condition.advance_ratio:g}"
     load = f"{condition.mass:.0f} kg, {condition.altitude:.0f} m"
@@ -104,14 +103,10 @@ def provenance_lines(solution: Solution) -> list[str]:
         f"{solution.status.value}: {solution.message} Residual {solution.residual:.1e} of weight.",
         f"total power {solution.power.total / 1e3:.6f} kW, main rotor {solution.power.main_rotor / 1e3:.6f} kW",
     ]
-    active = () if design.active_twist is None else design.active_twist.harmonics
-    for what, harmonics in (("root pitch", design.pitch_per_rev), ("active twist", active)):
+    for what, harmonics in (("root pitch", design.pitch_per_rev), ("active twist", design.active_waves)):
         if harmonics:
-            waves = ", ".join(
-                f"{harmonic.per_rev}/rev {harmonic.amplitude:g} rad, phase {harmonic.phase:g} rad"
-                for harmonic in harmonics
-            )
-            lines.insert(1, f"added {what}: {waves}" + (" (at rest in hover)" if design.hovering else ""))
+            waves = (f"{each.per_rev}/rev {each.amplitude:g} rad, phase {each.phase:g} rad" for each in harmonics)
+            lines.insert(1, f"added {what}: {', '.join(waves)}" + (" (at rest in hover)" if design.hovering else ""))
     lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
     lines.append(", ".join(f"{name} {number}" for name, number in versions().items()))
     lines.append("A model, not a measurement.")
@@ -144,18 +139,15 @@ def tables_zip(solution: Solution, reference: Design, curve: PowerCurve, azimuth
 def disk_csv(solution: Solution) -> bytes:
     """Every field over the disk, a row for each element and azimuth, and loads in SI beside the coefficients."""
     disk, design = solution.disk, solution.design
-    rotor = design.rotor
     r, psi = np.meshgrid(disk.r, np.degrees(disk.psi), indexing="ij")
     columns: list[tuple[str, Array]] = [("r/R [-]", r), ("psi [deg]", psi)]
     for name in _disk_fields(disk):
         values = getattr(disk, name)
         angle = name in _ANGLES
         columns.append((f"{name} [{'deg' if angle else '-'}]", np.degrees(values) if angle else values))
-    per_blade = design.thrust_unit / (rotor.blades * rotor.radius)
-    columns += [
-        ("thrust per blade [N/m]", disk.dct * per_blade),
-        ("power per blade [W/m]", disk.r[:, None] * disk.dcq * per_blade * rotor.tip_speed),
-    ]
+    columns.append(("thrust per blade [N/m]", disk.dct * design.thrust_per_metre))
+    power = disk.r[:, None] * disk.dcq * design.thrust_per_metre * design.rotor.tip_speed
+    columns.append(("power per blade [W/m]", power))
     notes = [
         f"{len(disk.r)} elements of {_widths(disk.dr)}; {len(disk.psi)} azimuths",
         "psi = 0 over the tail, 90 on the advancing side",

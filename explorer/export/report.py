@@ -29,7 +29,7 @@ from explorer.text.status import tiny
 from rotor import Solution, load_design, solve
 from rotor.support.markup import Markup, group, tag
 from rotor.support.terminal import OneLineParser, command_words, run_command
-from rotor.support.user_input import write_whole
+from rotor.support.user_input import write_output
 from rotor.trim.doubt import decimals
 
 
@@ -147,10 +147,7 @@ def _section(report: DesignReport, k: int) -> Markup:
 def _caveats(solution: Solution) -> Markup:
     if solution.caveats:
         return tag("ul.care", [tag("li", caveat.sentence) for caveat in solution.caveats])
-    sentence = (
-        "Trimmed: it carries its weight and overcomes its drag, with a residual of "
-        f"less than {tiny(solution.residual)} of the weight."
-    )
+    sentence = f"Trimmed: it carries its weight and overcomes its drag, within {tiny(solution.residual)} of the weight."
     return tag("p.good", sentence)
 
 
@@ -164,7 +161,7 @@ def _run(options: argparse.Namespace) -> int:
         if len(options.designs) > 1:
             raise ValueError(f"--live takes one design, not {len(options.designs)}: make a file of each")
         html = live_html(solve(load_design(options.designs[0])))
-        _write(options.out, html)
+        write_output(options.out, html)
         print(f"{options.out}: {len(html) / 1e3:.0f} kB")
         return 0
     entries = [ReportEntry(Path(file).stem, solve(load_design(file))) for file in options.designs]
@@ -177,16 +174,9 @@ def _run(options: argparse.Namespace) -> int:
         print(f"explorer report: {error}", file=sys.stderr)
         return 1
     stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
-    _write(options.out, report_html(report, stage))
+    write_output(options.out, report_html(report, stage))
     print(f"{options.out}: {len(entries)} design{'s' if len(entries) > 1 else ''}")
     return 0
-
-
-def _write(path: str, html: str) -> None:
-    try:
-        write_whole(path, html)
-    except OSError as error:
-        raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
 
 
 def _parser() -> argparse.ArgumentParser:
@@ -198,21 +188,11 @@ def _parser() -> argparse.ArgumentParser:
             ("One whose twist can be dragged", "a.json --live --out page.html"),
         ),
     )
-    parser.add_argument(
-        "designs",
-        nargs="+",
-        metavar="FILE",
-        help="design files; changes are relative to the baseline twist of the first",
-    )
-    parser.add_argument(
-        "--live", action="store_true", help="a page that travels: the sliders of one design's twist work in the file"
-    )
+    words = "design files; changes are relative to the baseline twist of the first"
+    parser.add_argument("designs", nargs="+", metavar="FILE", help=words)
+    words = "a page that travels: the sliders of one design's twist work in the file"
+    parser.add_argument("--live", action="store_true", help=words)
     parser.add_argument("--out", default="report.html", metavar="FILE", help="file to write (default report.html)")
-    parser.add_argument(
-        "--field",
-        default=ViewState.field,
-        choices=tuple(FIELDS),
-        metavar="NAME",
-        help=f"field on the 3D disk: {', '.join(FIELDS)}",
-    )
+    words = f"field on the 3D disk: {', '.join(FIELDS)}"
+    parser.add_argument("--field", default=ViewState.field, choices=tuple(FIELDS), metavar="NAME", help=words)
     return parser

@@ -89,7 +89,6 @@ def conditions(solution: Solution) -> Markup:
 
 
 def trim(solution: Solution) -> Markup:
-    """The trim and the coefficients of the rotor."""
     c = solution.controls
     stalled = [number(100 * part, 1) for part in (solution.stalled_area, solution.stalled_thrust)]
     rows: list[Row] = [

@@ -65,12 +65,9 @@ class ViewerCameraMessage(_Sent):
     up_direction: Point
 
     def fault(self) -> str:
-        fits = 1.0 / _LARGEST_ASPECT <= self.image_width / self.image_height <= _LARGEST_ASPECT
-        return (
-            ""
-            if fits
-            else f"a canvas of {self.image_width} × {self.image_height}, expected a ratio of {_LARGEST_ASPECT:g}"
-        )
+        if 1.0 / _LARGEST_ASPECT <= self.image_width / self.image_height <= _LARGEST_ASPECT:
+            return ""
+        return f"a canvas of {self.image_width} × {self.image_height}, expected a ratio of {_LARGEST_ASPECT:g}"
 
 
 class ScenePointerMessage(_Sent):
@@ -183,7 +180,6 @@ class NoDesign(ValueError):
 
 
 def log_dropped(what: str) -> None:
-    """Tell that something was dropped."""
     _log.warning("dropped from a page: %s", what)
 
 

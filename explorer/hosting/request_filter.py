@@ -63,9 +63,7 @@ class AllowedHosts:
         name, port = _split(host or "")
         if not name or not self._answers_to(name):
             shown = (host or "")[:_NAME_LENGTH]
-            return (
-                f"This server does not answer to the name {shown!r}: start it with --allow-host {name[:_NAME_LENGTH]}"
-            )
+            return f"This server does not answer to {shown!r}: start it with --allow-host {name[:_NAME_LENGTH]}"
         if origin is None or self._is_own(origin, name, port):
             return None
         return f"Pages of {origin[:_NAME_LENGTH]!r} may not use this server."
@@ -233,11 +231,8 @@ class RequestFilter:
             if not upgrade and path == "/compiling":  # The loading screen asks.
                 return _plain(http.HTTPStatus.OK, compiling())
             if not upgrade and path == "/first-answer":
-                if site not in (
-                    None,
-                    "same-origin",
-                    "none",
-                ):  # An image of another site could ask for solve after solve.
+                # An image of another site could ask for solve after solve.
+                if site not in (None, "same-origin", "none"):
                     return _plain(http.HTTPStatus.FORBIDDEN, "Pages of other sites may not ask for answers.")
                 return _plain(http.HTTPStatus.OK, self.first_answer(query))
             if not upgrade and path == "/place":  # Asked by a page that was turned away.
@@ -377,5 +372,4 @@ def _served(page: ServedPage, request: Request, extra: dict[str, str]) -> Respon
 def _plain(status: http.HTTPStatus, sentence: str, **others: str) -> Response:
     body = (sentence + "\n").encode(errors="replace")  # The message may repeat bytes of the request that are not text.
     kind = {"Content-Type": "text/plain; charset=utf-8", "Content-Length": str(len(body))}
-    headers = Headers({**kind, **_HEADERS, **others})
-    return Response(status, status.phrase, headers, body)
+    return Response(status, status.phrase, Headers({**kind, **_HEADERS, **others}), body)

@@ -154,19 +154,14 @@ def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str
     shown = repr(name if len(name) <= 60 else name[:57] + "…")
     if size > LARGEST_FILE:
         return f"{shown} has {size / 2**20:.1f} MB: {LARGEST_FILE // 2**20} MB are allowed."
-    if not _is_accepted(name, accepts):
+    endings = [item.strip().lower() for item in accepts.split(",")]  # Types without a dot say nothing about names.
+    if not any(not item.startswith(".") or name.lower().endswith(item) for item in endings):
         return f"{shown} is not a supported type: choose a {accepts.replace(',', ' or ')} file."
     if under_way >= UPLOADS_AT_ONCE:
         return f"{shown} must wait for the files before it: try again when they have arrived."
     if size < 0 or not 0 <= parts <= _UPLOAD_PARTS:
         return f"{shown} comes in {parts} parts: {_UPLOAD_PARTS} are allowed."
     return None
-
-
-def _is_accepted(name: str, accepts: str) -> bool:
-    """Whether the ending is one of those listed; types without a dot say nothing about names."""
-    endings = [item.strip().lower() for item in accepts.split(",")]
-    return any(not item.startswith(".") or name.lower().endswith(item) for item in endings)
 
 
 _MOST, _WINDOW = 3, 60.0
@@ -186,7 +181,6 @@ class RepeatFilter(logging.Filter):
         """Begin of the window and number of records by kind: logger, line of code, type of the error."""
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether the record passes."""
         error = record.exc_info[0] if record.exc_info else None
         kind = (record.name, record.lineno, error.__name__ if error else "")
         now = time.monotonic()
@@ -204,7 +198,6 @@ class RepeatFilter(logging.Filter):
 
 
 def limit_log() -> None:
-    """Limit what this process writes to its log."""
     handlers = logging.getLogger().handlers or ([logging.lastResort] if logging.lastResort else [])
     for handler in handlers:
         if not any(isinstance(known, RepeatFilter) for known in handler.filters):

@@ -143,9 +143,7 @@ def _filtered_by(request_filter: RequestFilter) -> Iterator[None]:
         finally:
             websockets.asyncio.server.serve = serve
     if not passed:
-        raise RuntimeError(
-            "The server started without its request filter: this viser starts its server in another way."
-        )
+        raise RuntimeError("The server started without its request filter: this viser starts servers in another way.")
 
 
 def log_failed_callbacks() -> None:
@@ -163,7 +161,6 @@ def _log_failure(done: Any) -> None:
 
 
 def client_html() -> str:
-    """The page of the client, as it was built."""
     return (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
 
 

@@ -37,8 +37,6 @@ AGAINST: tuple[Against, ...] = ("same-blade", "best-fixed")
 
 @dataclass(frozen=True)
 class ActuatorInputs:
-    """Everything on the tab."""
-
     actuator: str = "MFC_P1"
     plies: int = 2
     span: tuple[float, float] = default_placement().span
@@ -195,8 +193,7 @@ def verdict_inputs_of(inputs: ActuatorInputs, design: Design) -> VerdictInputs:
 def concept_divisions(name: str) -> tuple[float, ...]:
     """r/R where a concept's segments meet."""
     concept = find_concept(name)
-    law = concept.twist([0.5 * (p.low + p.high) for p in concept.parameters])
-    return divisions_of(law, len(concept.parameters))
+    return divisions_of(concept.twist([0.5 * (p.low + p.high) for p in concept.parameters]), len(concept.parameters))
 
 
 Outcome = Verdict | str
@@ -254,7 +251,6 @@ def schedule_at(flight: ActuatorFlight, installed: InstalledActuator, leg: float
 
 
 def flight_of(verdict: Verdict) -> ActuatorFlight:
-    """The flight of a judged actuator."""
     return fly(verdict, flight_legs(verdict.baseline.pair.design))
 
 

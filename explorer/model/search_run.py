@@ -101,7 +101,6 @@ class SearchRequest:
                 return getattr(self, name) is not None
 
     def known_concept(self) -> Concept:
-        """The concept, divided as asked."""
         if self.concept in _DIVIDED:
             return find_concept(self.concept, [self.division])
         if self.concept == "three-segment":
@@ -127,9 +126,7 @@ class SearchRequest:
         """The search; ValueError with one sentence where it makes no sense."""
         if self.index is not None and not design.models.bending:
             raise ValueError("A limit on vibration needs blades that bend: switch Blade bending on, under Model.")
-        return Search(
-            design=design, concept=self.known_concept(), objective=self.wanted(design, legs), limits=self.limits(design)
-        )
+        return Search(design, self.known_concept(), self.wanted(design, legs), self.limits(design))
 
     def limits(self, design: Design) -> Limits:
         """The limits; change is counted from the design's own twist."""
@@ -182,7 +179,6 @@ class SearchRun:
 
     @property
     def progress(self) -> Progress | None:
-        """The last report."""
         return next((report for report in reversed(self.record.reports) if isinstance(report, Progress)), None)
 
     @cached_property

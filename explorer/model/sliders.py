@@ -120,10 +120,8 @@ def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, Sl
     if not law.parameters:
         return {}
     by_parameter = gradient.along(law.slopes(inputs.parameters, gradient.r))
-    return {
-        name: SliderSensitivity(name, float(slope) * parameter.from_shown(1.0))
-        for name, parameter, slope in zip(law.inputs, law.parameters, by_parameter, strict=True)
-    }
+    rows = zip(law.inputs, law.parameters, by_parameter, strict=True)
+    return {name: SliderSensitivity(name, float(slope) * parameter.from_shown(1.0)) for name, parameter, slope in rows}
 
 
 def flight_sensitivities(solution: Solution) -> Generator[None, None, dict[str, SliderSensitivity]]:

@@ -229,7 +229,6 @@ def condition_of(rotor: str, case: str) -> MeasuredCondition | None:
 
 
 def opening(conditions: Sequence[MeasuredCondition]) -> MeasuredCondition:
-    """The condition that a test begins with."""
     return next((condition for condition in conditions if condition.first), conditions[len(conditions) // 2])
 
 
@@ -246,6 +245,12 @@ def tested(aircraft: Aircraft) -> tuple[float, StandInputs]:
     if condition is None or condition.stand is None:
         return 0.0, StandInputs()
     return condition.advance_ratio, condition.stand
+
+
+def place_of(solution: Solution) -> dict[str, float]:
+    """Where a solution is among measured points: what these may be given by, in their units."""
+    theta, mu = math.degrees(solution.controls.collective), solution.design.condition.advance_ratio
+    return {"mu": mu, "ct": solution.ct, "ct_over_sigma": solution.ct_over_sigma, "collective_deg": theta}
 
 
 SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt", "collective_deg": "collective"}

@@ -88,8 +88,6 @@ class FlightPart:
 
 @dataclass(frozen=True)
 class PowerBar:
-    """Power that one cause needs."""
-
     name: str
     value: float
     """In the unit of the part."""

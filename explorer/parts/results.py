@@ -108,8 +108,6 @@ class MarkedSpeeds:
 
 @dataclass(frozen=True)
 class StripChart:
-    """A chart below the scene."""
-
     name: str
     kind: Kind
     faded: bool
@@ -146,8 +144,6 @@ class InsetBlade:
 
 @dataclass(frozen=True)
 class InsetPart(InsetBlade):
-    """The inset with the names of its two blades."""
-
     name: str
     name_hint: str
     overlay_name: str

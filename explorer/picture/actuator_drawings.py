@@ -53,8 +53,6 @@ class BladePart:
 
 @dataclass(frozen=True)
 class Drawing:
-    """How a kind is drawn."""
-
     pieces: Callable[[InstalledActuator, Rotor], list[BladePart]]
     """What is driven, without twist."""
     style: PieceStyle
@@ -115,7 +113,6 @@ DRAWINGS: dict[type[Actuator], Drawing] = {
 
 
 def _driven(installed: InstalledActuator) -> list[tuple[int, Array]]:
-    """Driven segments with their stations."""
     spans = enumerate(installed.placement.segments)
     return [(segment, stations(span, 28)) for segment, span in spans if span[1] - span[0] > 1e-6]
 

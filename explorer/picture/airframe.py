@@ -6,7 +6,6 @@ starboard, z up.
 """
 
 import math
-import tomllib
 from dataclasses import dataclass
 from functools import cache, lru_cache
 
@@ -16,7 +15,7 @@ import trimesh
 from explorer.picture.blade_mesh import Mesh, joined_meshes, revolved, tube
 from rotor import Rotor
 from rotor.design.aircraft import TailRotor
-from rotor.support.assets import asset_path
+from rotor.support.assets import asset_path, toml_asset
 
 _DRAWN_FOR = 8.1788
 """Radius [m] that the fixed measures are given for; on other rotors they grow and shrink with it."""
@@ -117,7 +116,7 @@ def airframe(rotor: Rotor, tail: TailRotor | None = None) -> Airframe:
     wheels = rotor.radius > _WHEELS_ABOVE_M
     body = joined_meshes((parts["generic-body"], parts["generic-legs"])) if wheels else parts["generic-body"]
     *gear, blade = _open_tail_rotor(parts["generic-wheels" if wheels else "generic-skids"])
-    own = tomllib.loads(asset_path("airframes.toml").read_text(encoding="utf-8")).get(rotor.name, {})
+    own = toml_asset("airframes.toml").get(rotor.name, {})
     end = own.get("tail_m", tail.arm + scale * (_END - _TAIL) if tail else scale * _END) / scale
     nose = end - own["length_m"] / scale if own else _NOSE
 

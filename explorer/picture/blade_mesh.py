@@ -53,13 +53,9 @@ def loft(rings: ArrayLike) -> Mesh:
     following = (k + 1) % points
     first, last = count * points, count * points + 1
     tip = (count - 1) * points
-    faces = np.concatenate(
-        (
-            ring_faces(count, points),
-            np.stack((k, following, np.full(points, first)), 1),
-            np.stack((tip + following, tip + k, np.full(points, last)), 1),
-        )
-    ).astype(np.uint32)
+    near_end = np.stack((k, following, np.full(points, first)), 1)
+    far_end = np.stack((tip + following, tip + k, np.full(points, last)), 1)
+    faces = np.concatenate((ring_faces(count, points), near_end, far_end)).astype(np.uint32)
     vertices = np.concatenate((rings.reshape(-1, 3), rings[[0, -1]].mean(axis=1)))
     return Mesh(vertices, faces if _volume(vertices, faces) > 0.0 else faces[:, ::-1])
 
@@ -86,14 +82,14 @@ def revolved(profile: ArrayLike, segments: int = 40) -> Mesh:
     return loft([radius * ring + [0.0, 0.0, height] for radius, height in profile[1:-1]])
 
 
-def tube(start: ArrayLike, end: ArrayLike, radius: float, end_radius: float | None = None, segments: int = 14) -> Mesh:
+def tube(start: ArrayLike, end: ArrayLike, radius: float, end_radius: float | None = None) -> Mesh:
     """A round bar between two points, conical where `end_radius` is given; lengths [m]."""
     a, b = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     along = (b - a) / np.linalg.norm(b - a)
     across = np.cross(b - a, np.eye(3)[int(np.argmin(np.abs(b - a)))])
     across /= np.linalg.norm(across)
     up = np.cross(along, across)
-    angle = 2.0 * math.pi * np.arange(segments)[:, None] / segments
+    angle = 2.0 * math.pi * np.arange(14)[:, None] / 14
     ring = np.cos(angle) * across + np.sin(angle) * up
     return loft([a + radius * ring, b + (radius if end_radius is None else end_radius) * ring])
 
@@ -121,8 +117,6 @@ SWEPT_TIPS = {"UH-60A": (0.929, math.radians(20.0))}
 
 @dataclass(frozen=True)
 class LoftDetail:
-    """How finely a blade is lofted."""
-
     points: int = 29
     """Round a section (odd)."""
     stations: int = 31
@@ -149,8 +143,7 @@ class BladeShape:
 
     def pitch(self, twist: TwistLaw, exaggeration: float) -> Array:
         """Drawn twist of each ring [rad]; the shank keeps the root's."""
-        lifting = np.maximum(self.r, self.r[_SHANK_RINGS])
-        return drawn_pitch(twist, lifting, exaggeration)
+        return drawn_pitch(twist, np.maximum(self.r, self.r[_SHANK_RINGS]), exaggeration)
 
 
 def drawn_pitch(twist: TwistLaw, r: ArrayLike, exaggeration: float) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageChops, ImageDraw, ImageFilter, ImageFont
 
-from explorer.colours import VOID, DiskInk, Rgb, Scheme, colour_map, greyed
+from explorer.colours import VOID, DiskInk, Rgb, Scheme, colour_map
 from explorer.picture.airframe import Airframe
 from explorer.picture.polar import Bytes, MarkedRegion, Places, PolarGrid
 from rotor import Design
@@ -151,15 +151,10 @@ def paint(codes: Bytes, index: Places, covered: Places, kind: NDArray[np.uint16]
 
 
 @lru_cache(maxsize=8)
-def palette(scheme: Scheme, faded: bool, ink: DiskInk | None = None) -> Bytes:
-    """The 256 RGBA entries, shape (256, 4), kept; `faded` is the grey picture of a solution that no longer holds.
-
-    `ink`: colours of the marked regions, and the opacity of the disk.
-    """
+def palette(scheme: Scheme, ink: DiskInk | None) -> Bytes:
+    """The 256 RGBA entries, shape (256, 4), kept; `ink`: colours of the marked regions, and the disk's opacity."""
     ink = ink or DiskInk()
     colours = colour_map(scheme, _LEVELS)
-    if faded:
-        colours = greyed(colours)
     entries = np.zeros((256, 4), dtype=np.uint8)
     entries[_CLEAR, :3] = VOID
     entries[1 : 1 + _LEVELS, :3] = colours
@@ -176,8 +171,6 @@ def palette(scheme: Scheme, faded: bool, ink: DiskInk | None = None) -> Bytes:
         source = colours[colour * (_LEVELS - 1) // (_EDGE_COLOURS - 1)]
         for step, share in enumerate(_EDGE_ALPHAS):
             entries[_FIRST_EDGE + 3 * colour + step] = (*source, round(255 * share * ink.opacity))
-    if faded:
-        entries[:, 3] = (0.55 * entries[:, 3]).astype(np.uint8)
     entries.flags.writeable = False
     return entries
 
@@ -258,8 +251,7 @@ class _Ring:
         self._draw.ellipse(self._box(r), outline=strength, width=self._pixels(width))
 
     def tick(self, degrees: float, first: float, last: float, width: float, strength: int) -> None:
-        ends = [self._at(degrees, first), self._at(degrees, last)]
-        self._draw.line(ends, fill=strength, width=self._pixels(width))
+        self._draw.line([self._at(degrees, first), self._at(degrees, last)], fill=strength, width=self._pixels(width))
 
     def arrow(self, first: float, last: float, r: float, width: float, strength: int) -> None:
         """An arc with a head at its later end."""

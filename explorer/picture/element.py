@@ -148,8 +148,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     speed = rotor.tip_speed
     theta, u_t, u_p, mach = (at.reaching(field) for field in (disk.theta, disk.u_t, disk.u_p, disk.mach))
     phi = math.atan2(u_p, u_t)
-    per_metre = design.thrust_unit / (rotor.blades * rotor.radius)
-    thrust, pull = per_metre * at.held(disk.dct), per_metre * at.held(disk.dcq)
+    thrust, pull = design.thrust_per_metre * at.held(disk.dct), design.thrust_per_metre * at.held(disk.dcq)
     parts = rotor.blade.mixture(r, design.reynolds_per_metre)
     if not design.models.stall:
         parts = tuple((replace(one, table=unstalled(one.table)), share) for one, share in parts)
@@ -275,12 +274,8 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
     ]
     highest = max(float(np.abs(cl).max()), *(float(np.abs(curve).max()) for curve in curves))
     path = Line("", np.append(alpha, alpha[0]), np.append(np.where(ahead, cl, np.nan), np.nan), THIS, width=1.2)
-    chart = Chart(
-        "Lift curve at this Mach number",
-        Axis("α", (-reach, reach), unit="°"),
-        Axis("C_l", (-1.1 * highest, 1.1 * highest)),
-        (path,),
-    )
+    across = Axis("α", (-reach, reach), unit="°")
+    chart = Chart("Lift curve at this Mach number", across, Axis("C_l", (-1.1 * highest, 1.1 * highest)), (path,))
     return RidePart(
         r=r,
         psi=psi_deg,

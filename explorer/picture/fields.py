@@ -49,7 +49,6 @@ class Field:
         return (f"{self.title} [{self.unit}]" if self.unit else self.title) + self.note
 
     def exists(self, solution: Solution | DrawnSolution) -> bool:
-        """Whether the models of a solution have the quantity."""
         return not self.needs or getattr(solution.disk, self.needs) is not None
 
     def void(self, drawn: DrawnSolution, grid: PolarGrid) -> NDArray[np.bool_] | None:
@@ -104,10 +103,10 @@ def _per_metre(unit: str, of: Callable[[DiskFields], Array]) -> Callable[[DrawnS
 
 def _circulation(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     """Lift per length over ρU; weighted by U², which is smooth where the flow stands still."""
-    rotor, condition, disk = drawn.design.rotor, drawn.design.condition, drawn.disk
+    design, disk = drawn.design, drawn.disk
     lift_times_speed = disk.dct * disk.u_t + disk.dcq * disk.u_p
     square = np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2), 1e-3)
-    unit = drawn.design.thrust_unit / (rotor.blades * rotor.radius * condition.density * rotor.tip_speed)
+    unit = design.thrust_per_metre / (design.condition.density * design.rotor.tip_speed)
     return grid.refine(lift_times_speed) / square * unit
 
 
@@ -125,10 +124,10 @@ _profile_power = _per_metre("power_unit", _dissipation)
 
 def _drag(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     """Section drag per length: profile power over the speed at the section, which is smooth where the flow stands."""
-    rotor, disk = drawn.design.rotor, drawn.disk
+    disk = drawn.disk
     speed = np.sqrt(np.maximum(grid.refine(disk.u_t**2 + disk.u_p**2 + disk.u_r**2), 1e-3))
     force = grid.refine(_dissipation(disk)) / speed
-    return np.maximum(force, 0.0) * (drawn.design.thrust_unit / (rotor.blades * rotor.radius))
+    return np.maximum(force, 0.0) * drawn.design.thrust_per_metre
 
 
 def _elastic_deg(drawn: DrawnSolution, grid: PolarGrid) -> Array:

@@ -38,8 +38,6 @@ TWIST_EXAGGERATION = 8.0
 
 @dataclass(frozen=True, eq=False)
 class StyledMesh:
-    """A mesh, how it looks and how it glows."""
-
     mesh: Mesh
     surface: PieceStyle
     glow: Glow | None = None
@@ -153,7 +151,6 @@ def drive_colour(actuator: Actuator, share: float) -> Rgb:
 
 
 def mixed_colour(rgb: Rgb, other: Rgb, share: float) -> Rgb:
-    """A colour on the way from one to another."""
     red, green, blue = (round(a + (b - a) * share) for a, b in zip(rgb, other, strict=True))
     return red, green, blue
 

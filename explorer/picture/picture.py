@@ -73,9 +73,7 @@ def pitch_series(controls: TrimState, design: Design | None = None) -> list[floa
     series = [controls.collective, controls.cyclic_1c, controls.cyclic_1s]
     given = () if design is None or design.hovering else design.pitch_per_rev
     for n in range(2, max((harmonic.per_rev for harmonic in given), default=1) + 1):
-        size, phase = next(
-            ((harmonic.amplitude, harmonic.phase) for harmonic in given if harmonic.per_rev == n), (0.0, 0.0)
-        )
+        size, phase = next(((wave.amplitude, wave.phase) for wave in given if wave.per_rev == n), (0.0, 0.0))
         series += [size * math.cos(phase), size * math.sin(phase)]
     return series
 
@@ -83,10 +81,8 @@ def pitch_series(controls: TrimState, design: Design | None = None) -> list[floa
 def root_pitch(controls: TrimState, psi: float, design: Design | None = None) -> float:
     """Root pitch of a blade at ψ [rad]."""
     mean, *waves = pitch_series(controls, design)
-    return mean + sum(
-        cosine * math.cos(n * psi) + sine * math.sin(n * psi)
-        for n, (cosine, sine) in enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
-    )
+    orders = enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
+    return mean + sum(cosine * math.cos(n * psi) + sine * math.sin(n * psi) for n, (cosine, sine) in orders)
 
 
 def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | None = None) -> Pose:
@@ -97,10 +93,8 @@ def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | N
     cos, sin = math.cos(psi), math.sin(psi)
     flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
     pitch = root_pitch(controls, psi, design)
-    return Pose(
-        composed_rotation(axis_rotation(2, psi), axis_rotation(1, -flap), axis_rotation(0, pitch)),
-        hinge * np.array([cos, sin, 0.0]),
-    )
+    turned = composed_rotation(axis_rotation(2, psi), axis_rotation(1, -flap), axis_rotation(0, pitch))
+    return Pose(turned, hinge * np.array([cos, sin, 0.0]))
 
 
 def tip_path_pose(controls: TrimState, drop: float) -> Pose:
@@ -293,15 +287,13 @@ def page_disk_png(
     solution: Solution, field: Field, colour_range: tuple[float, float], view: ViewState, pixels: int
 ) -> bytes:
     """The disk as the scene shows it: marked regions, in the ink of the page."""
-    ink = scene_theme(view.dark).ink
-    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=ink)
+    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=scene_theme(view.dark).ink)
 
 
 def disk_png(
     solution: Solution,
     field: Field,
     colour_range: tuple[float, float],
-    faded: bool = False,
     size: int = disk_image.SIZE,
     marks: RegionMarks = NO_MARKS,
     ink: DiskInk | None = None,
@@ -317,7 +309,7 @@ def disk_png(
     regions = region_codes(drawn, grid, marks, half_width)
     void = field.void(drawn, grid)
     pixels = disk_image.indices(grid, field.sample(drawn, grid), *colour_range, void, size, regions)
-    return encode_png(pixels, disk_image.palette(field.colours, faded, ink))
+    return encode_png(pixels, disk_image.palette(field.colours, ink))
 
 
 def field_values(solution: Solution, field: Field) -> Array:

@@ -123,12 +123,8 @@ def _build(
 ) -> PolarGrid:
     r = np.linspace(*ends, radii)
     psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
-    return PolarGrid(
-        r=r,
-        psi=psi,
-        along=_along(r, np.array(elements)),
-        around=_around((psi - first_psi) * n_psi / (2.0 * np.pi), n_psi),
-    )
+    along = _along(r, np.array(elements))
+    return PolarGrid(r=r, psi=psi, along=along, around=_around((psi - first_psi) * n_psi / (2.0 * np.pi), n_psi))
 
 
 def _weights(fraction: Array) -> Array:
@@ -280,8 +276,6 @@ _DASH_SHARE = 0.58
 
 
 class MarkedRegion(IntEnum):
-    """What a polar point is marked as."""
-
     NONE = 0
     STALLED = 1
     STALL_RIM = 2
@@ -362,7 +356,6 @@ def _smoothing(grid: PolarGrid) -> WeightedSums:
 
 @_compile
 def mark_below(codes: Bytes, code: int, values: Single, where: Booleans) -> None:
-    """Mark the points `where` values are below zero."""
     for i in range(values.shape[0]):
         for j in range(values.shape[1]):
             if where[i, j] and values[i, j] < 0.0:

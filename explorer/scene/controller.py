@@ -89,13 +89,7 @@ class PageScene:
         call(self._client, "rotorDisk.form", shaped)
 
     def paint(
-        self,
-        solution: Solution,
-        field: Field,
-        colour_range: Range,
-        view: ViewState,
-        root: str = ROTOR,
-        faded: bool = False,
+        self, solution: Solution, field: Field, ends: Range, view: ViewState, root: str = ROTOR, faded: bool = False
     ) -> None:
         """Colour the disk; `faded`: that of a solution that no longer holds."""
         ink = field.colours, scene_theme(view.dark).ink, faded
@@ -103,7 +97,7 @@ class PageScene:
         if ink != self._inks.get(root):
             self._inks[root] = ink
             call(self._client, "rotorDisk.ink", root, disk_ink(*ink))
-        call(self._client, "rotorDisk.paint", root, disk_numbers(solution, field, colour_range, marks))
+        call(self._client, "rotorDisk.paint", root, disk_numbers(solution, field, ends, marks))
 
     def move(self, solution: Solution) -> None:
         """How the blades flap and pitch from now on; sent at once only while the rotor turns."""

@@ -56,8 +56,7 @@ class RotorNodes:
         if rotor == self._fitted:
             return
         self._fitted, radius = rotor, rotor.radius
-        head = joined_meshes([rotor_head(rotor), mast(radius)])
-        set_mesh(self._head, head)
+        set_mesh(self._head, joined_meshes([rotor_head(rotor), mast(radius)]))
         start = straight(rotor)
         for blade in self._blades:
             set_mesh(blade, start)
@@ -81,7 +80,6 @@ class RotorNodes:
             self.turn(picture.blades)
 
     def turn(self, blades: Blades) -> None:
-        """Move blades and head."""
         viser_compat.set_pose(self._head, axis_rotation(2, blades.azimuth))
         for handle, pose in zip(self._blades, blades.poses, strict=False):
             place_node(handle, pose)

@@ -145,9 +145,8 @@ class Presentations:
         if away:
             listener("away")
         sent = None
-        while (
-            shown := self._shown.get(name)
-        ) is not None and shown is not sent:  # The state may change during the send.
+        # The state may change during the send.
+        while (shown := self._shown.get(name)) is not None and shown is not sent:
             sent = shown
             listener(shown)
         self._count(name)

@@ -117,9 +117,7 @@ def design_from(code: str) -> Design:
     """The design of a text; ValueError with one sentence for an invalid one."""
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
-        raise ValueError(
-            f"The design in the address, {clipped(code)!r}, is not of version {VERSION}: ask for a new link."
-        )
+        raise ValueError(f"The design in the address, {clipped(code)!r}, is not version {VERSION}: ask for a new link.")
     own, most = rest.startswith(_FILE), LONGEST_OWN if rest.startswith(_FILE) else LONGEST
     if len(code) > most:
         raise ValueError(f"The design in the address has {len(code)} characters; at most {most} are allowed.")
@@ -132,9 +130,7 @@ def design_from(code: str) -> Design:
     for word in words:
         key, equals, value = word.partition("=")
         if not equals:
-            raise ValueError(
-                f"The design in the address holds {clipped(word)!r}, not of the form key=value: ask for a new link."
-            )
+            raise ValueError(f"The design in the address holds {clipped(word)!r}, not key=value: ask for a new link.")
         record[_LONG.get(key, key)] = _value(value)
     try:
         return design_from_record(record)
@@ -301,9 +297,7 @@ def view_from(code: str) -> ViewState:
     """The view a text means; ValueError with one sentence for one that means none."""
     version, *words = code.strip().split(";")
     if version != str(VERSION):
-        raise ValueError(
-            f"The view in the address, {clipped(code)!r}, is not of version {VERSION}: ask for a new link."
-        )
+        raise ValueError(f"The view in the address, {clipped(code)!r}, is not version {VERSION}: ask for a new link.")
     view = _PLAIN_VIEW
     for word in words:
         name, _, value = word.partition("=")
@@ -335,9 +329,7 @@ def _number(name: str, word: str) -> float:
     except ValueError:
         value = float("nan")
     if not low <= value <= high:
-        raise ValueError(
-            f"The view in the address has {name}={clipped(word)!r}: give a number from {low:g} to {high:g}."
-        )
+        raise ValueError(f"The view in the address has {name}={clipped(word)!r}: give {low:g} to {high:g}.")
     return value
 
 

@@ -24,7 +24,7 @@ from explorer.story.steps import (
     on_one_line,
     speed_words,
 )
-from explorer.text.line import listed
+from explorer.text.design_words import listed
 from explorer.text.readout import banded, digits_of, limit_words
 from rotor import Solution, doubt, make_design, solve, vibration_front
 from rotor.actuator import FlightLeg, fly, try_actuator
@@ -109,8 +109,6 @@ class StepChart:
 
 @dataclass(frozen=True)
 class ControlStop:
-    """One position of the control."""
-
     words: str
     inputs: Inputs
     against: Inputs | None
@@ -140,7 +138,6 @@ class StepFacts:
 
 
 def words_of(numbers: Mapping[str, Number], units: Units) -> dict[str, str]:
-    """As they are written."""
     return {name: number.words(units) for name, number in numbers.items()}
 
 
@@ -159,10 +156,8 @@ def _trim(step: LectureStep) -> StepFacts:
     powers = [solution.power for solution in flight.b]
     values = step.control.values
     hover, cruise, low = powers[0], powers[values.index(0.3)], int(np.argmin([power.total for power in powers]))
-    parts = tuple(
-        ChartLine(name, name, tuple(getattr(power, name) for power in powers))
-        for name in ("induced", "profile", "parasite")
-    )
+    names = "induced", "profile", "parasite"
+    parts = tuple(ChartLine(name, name, tuple(getattr(power, name) for power in powers)) for name in names)
     totals = tuple(power.total for power in powers)
     chart = StepChart("advance ratio", "power", "power", values, "mu", (ChartLine("total", "b", totals), *parts))
     ratio = cruise.induced / hover.induced
@@ -203,13 +198,9 @@ def _changes(step: LectureStep) -> StepFacts:
     """Changes of induced and profile power from A to B, over twist: with linear inflow, and with a wake."""
     blades = _Sweep(step)
     a, b = blades.pair
-    induced, profile = (
-        tuple(
-            getattr(solution.power, name) - getattr(other.power, name)
-            for solution, other in zip(blades.b, blades.a, strict=True)
-        )
-        for name in ("induced", "profile")
-    )
+    powers = [(here.power, there.power) for here, there in zip(blades.b, blades.a, strict=True)]
+    induced = tuple(here.induced - there.induced for here, there in powers)
+    profile = tuple(here.profile - there.profile for here, there in powers)
     lines = ChartLine("induced", "induced", induced), ChartLine("profile", "profile", profile)
     chart = StepChart("twist [°/R]", "B − A", "power", step.control.values, "rate", lines)
     by_induced, by_profile = (getattr(b.power, name) - getattr(a.power, name) for name in ("induced", "profile"))
@@ -274,11 +265,9 @@ def _two_segments(step: LectureStep) -> StepFacts:
     blades = _Sweep(step)
     a, b = blades.pair
     changes = tuple(solution.power.total / a.power.total - 1.0 for solution in blades.b)
-    flat = [
-        rate
-        for rate, solution in zip(step.control.values, blades.b, strict=True)
-        if solution.power.total < (1.0 + _FLAT_SHARE) * min(other.power.total for other in blades.b)
-    ]
+    most = (1.0 + _FLAT_SHARE) * min(solution.power.total for solution in blades.b)
+    rated = zip(step.control.values, blades.b, strict=True)
+    flat = [rate for rate, solution in rated if solution.power.total < most]
     inputs = step.begin()
     numbers = (
         _named(step, a, b)
@@ -291,8 +280,7 @@ def _two_segments(step: LectureStep) -> StepFacts:
     lines = ChartLine("A", "a", level), ChartLine("B", "b", changes)
     chart = StepChart("inboard twist [°/R]", "against A", "percent", step.control.values, "rate", lines)
     saving, band = 1.0 - b.power.total / a.power.total, 0.01 * (doubt(b, a).change_band_percent or 0.0)
-    facts = blades.facts(numbers, saving, chart, level, changes)
-    return _banded(step, facts, saving - band, saving + band)
+    return _banded(step, blades.facts(numbers, saving, chart, level, changes), saving - band, saving + band)
 
 
 def _fixed_or_moving(step: LectureStep) -> StepFacts:
@@ -419,10 +407,8 @@ class _Sweep:
         self._step, control = step, step.control
         b = [control.apply(step.inputs, value) for value in control.values]
         a = [compared_inputs(step.against, step.inputs, inputs) for inputs in b]
-        self.stops = tuple(
-            ControlStop(control.words(value), inputs, other, ())
-            for value, inputs, other in zip(control.values, b, a, strict=True)
-        )
+        stops = zip(control.values, b, a, strict=True)
+        self.stops = tuple(ControlStop(control.words(value), inputs, other, ()) for value, inputs, other in stops)
         self.b, self.a = _trimmed(b), _trimmed([inputs for inputs in a if inputs is not None])
 
     @property
@@ -435,10 +421,8 @@ class _Sweep:
         self, numbers: Mapping[str, Number], answer: float, chart: StepChart, *curves: Sequence[float]
     ) -> StepFacts:
         """With dots on these curves over the values of the control."""
-        stops = tuple(
-            replace(stop, dots=tuple((value, curve[k]) for curve in curves))
-            for k, (stop, value) in enumerate(zip(self.stops, self._step.control.values, strict=True))
-        )
+        placed = enumerate(zip(self.stops, self._step.control.values, strict=True))
+        stops = tuple(replace(stop, dots=tuple((value, curve[k]) for curve in curves)) for k, (stop, value) in placed)
         return _answered(self._step, stops, numbers, answer, chart)
 
 

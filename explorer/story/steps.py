@@ -59,14 +59,12 @@ class StepSlider:
     kind: Literal["slider", "switch"] = "slider"
 
     def apply(self, inputs: Inputs, value: float) -> Inputs:
-        """The inputs with the control at a value."""
         if not self.moves:
             return inputs
         moved: dict[str, Any] = {self.moves: value > 0.5 if self.kind == "switch" else value}
         return replace(inputs, **moved)
 
     def words(self, value: float) -> str:
-        """What stands beside it."""
         if self.kind == "switch":
             return "as it is" if value > 0.5 else "none"
         if not self.moves:
@@ -221,7 +219,6 @@ def _step(
     against: dict[str, Any] | None = None,
     **shown: Any,
 ) -> LectureStep:
-    """A step as its table in `steps.toml` has it."""
     words: dict[str, Any] = {
         key: tuple(part) if key == "options" else " ".join(part.split()) for key, part in text.items()
     }

@@ -2,6 +2,7 @@
 models."""
 
 import math
+from collections.abc import Sequence
 
 from explorer.model.inputs import INFLOW_MENUS, PRESET_TITLES, Inputs, baseline_of, baseline_title
 from explorer.model.stand import TRIM_TITLES, StandInputs, stand_of
@@ -35,8 +36,7 @@ def against(design: Design, reference: Design, pinned: bool) -> str:
 
 def wave_words(design: Design) -> str:
     """Active twist and root pitch that follow the azimuth; empty without, and in hover."""
-    active = () if design.active_twist is None else design.active_twist.harmonics
-    return "" if design.hovering else harmonic_words(active, design.pitch_per_rev)
+    return "" if design.hovering else harmonic_words(design.active_waves, design.pitch_per_rev)
 
 
 def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> str:
@@ -47,7 +47,7 @@ def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> 
         return f"{amplitude}° at {harmonic.per_rev}/rev (phase {phase:.0f}°)"
 
     kinds = (("active twist", twist), ("root pitch", pitch))
-    return " and ".join(f"{kind} of {_joined([words(wave) for wave in waves])}" for kind, waves in kinds if waves)
+    return " and ".join(f"{kind} of {listed([words(wave) for wave in waves])}" for kind, waves in kinds if waves)
 
 
 def title_words(design: Design) -> str:
@@ -68,10 +68,9 @@ def twist_name(design: Design) -> str:
 
 def wave_names(design: Design) -> list[str]:
     """Active twist and root pitch, a wave each."""
-    active = () if design.active_twist is None else design.active_twist.harmonics
     return [
         f"{wave.per_rev}/rev {kind} {number(math.degrees(wave.amplitude), 2)}°"
-        for kind, harmonics in (("twist", active), ("pitch", design.pitch_per_rev))
+        for kind, harmonics in (("twist", design.active_waves), ("pitch", design.pitch_per_rev))
         for wave in harmonics
     ]
 
@@ -167,5 +166,6 @@ def _degrees(angle: float) -> str:
     return number(math.degrees(angle), 1).removesuffix(".0")
 
 
-def _joined(parts: list[str]) -> str:
-    return parts[0] if len(parts) == 1 else f"{', '.join(parts[:-1])} and {parts[-1]}"
+def listed(names: Sequence[str]) -> str:
+    """`fibre strain, temperature and mass`"""
+    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))

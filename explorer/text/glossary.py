@@ -14,8 +14,6 @@ from rotor.design.quantities import BY_INPUT
 
 @dataclass(frozen=True)
 class Term:
-    """The text of a tooltip."""
-
     sentence: str
     equations: tuple[str, ...] = ()
     """Equations of the source document, as numbered in docs/theory.md."""
@@ -42,9 +40,8 @@ def _terms(entries: Mapping[str, str]) -> dict[str, Term]:
 
 
 _FILE = tomllib.loads((Path(__file__).parent / "glossary.toml").read_text(encoding="utf-8"))
-CONTROLS: dict[str, Term] = _terms({name: row.tooltip for name, row in {**BY_INPUT, **TWISTS}.items()}) | _terms(
-    _FILE["controls"]
-)
+_QUANTITIES = {name: row.tooltip for name, row in {**BY_INPUT, **TWISTS}.items()}
+CONTROLS: dict[str, Term] = _terms(_QUANTITIES) | _terms(_FILE["controls"])
 """By the field of `Inputs` or `ViewState`, or a name of the widget's own."""
 READOUTS: dict[str, Term] = _terms(_FILE["readouts"])
 SECTIONS: dict[str, str] = _FILE["sections"]

@@ -11,7 +11,7 @@ from explorer.model.sliders import slider, stand_slider
 from explorer.model.stand import LOAD_TITLES
 from explorer.model.units import Units, number, shown
 from explorer.parts.results import Kind, LineControl, LinePiece
-from explorer.text.design_words import AS_BUILT, twist_name, wave_names
+from explorer.text.design_words import AS_BUILT, listed, twist_name, wave_names
 from explorer.text.readout import change_sizes, fineness
 from rotor import Design, Solution
 from rotor.design.quantity import Slider
@@ -115,17 +115,12 @@ def power_pieces(solution: Solution, units: Units, band: Doubt | None, known: bo
         if band is not None and band.power:
             within = f" ± {number(ratio * band.band / band.power, 1)}"
         title = band.sentence if band else ""
-        ratio_words = (
-            LinePiece(number(ratio, 1), "total-power", title=title),
-            LinePiece(within, "within", stale=not known),
-        )
-        return [LinePiece(" has lift-to-drag ", "verb"), *ratio_words, LinePiece(f", drag {drag} N", WIDE)]
+        verb, shown = LinePiece(" has lift-to-drag ", "verb"), LinePiece(number(ratio, 1), "total-power", title=title)
+        return [verb, shown, LinePiece(within, "within", stale=not known), LinePiece(f", drag {drag} N", WIDE)]
     total = number(abs(unit.of(power.total)), fineness(power, units))
     driven = power.total < 0.0 and any(digit in total for digit in "123456789")
-    pieces = [
-        LinePiece(" takes " if driven else " needs ", "verb"),
-        LinePiece(total, "total-power", title="" if band is None else band.sentence),
-    ]
+    shown = LinePiece(total, "total-power", title="" if band is None else band.sentence)
+    pieces = [LinePiece(" takes " if driven else " needs ", "verb"), shown]
     if band is not None and band.of == "Power":
         within = unit.of(band.band)
         digits = max(fineness(power, units), decimals(within))
@@ -171,13 +166,7 @@ def change_pieces(
 
 
 def over_pieces(names: Sequence[str]) -> list[LinePiece]:
-    """The limits that are exceeded."""
     return [LinePiece(f"; over its limits in {listed(names)}", "exceeded", "bad")] if names else []
-
-
-def listed(names: Sequence[str]) -> str:
-    """`fibre strain, temperature and mass`"""
-    return " and ".join(filter(None, (", ".join(names[:-1]), *names[-1:])))
 
 
 def plain(pieces: Sequence[LinePiece], note: str = "") -> str:

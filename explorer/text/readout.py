@@ -47,10 +47,8 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
     reference = baseline.power if baseline is not None and baseline.converged else None
     titles = part_titles(solution.design)
     rows = [_row(name, title, power, reference, units, band) for name, title in titles.items()]
-    words = (
-        tag("span", "total power"),
-        tag("span", f"vs. {baseline_title(solution.design, baseline and baseline.design)}"),
-    )
+    against = baseline_title(solution.design, baseline and baseline.design)
+    words = tag("span", "total power"), tag("span", f"vs. {against}")
     return _panel(solution, reference, words, tag("table", rows), units, band)
 
 
@@ -259,10 +257,8 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     power = solution.power
     reference = pinned.power if pinned.converged else None
     against = f", {units.watts(reference.total)}" if reference else ": no trim at this condition"
-    rows = [
-        _compared_row(title, name, power, reference, units, band)
-        for name, title in {**part_titles(solution.design, pinned.design), "total": "Total"}.items()
-    ]
+    titles = {**part_titles(solution.design, pinned.design), "total": "Total"}
+    rows = [_compared_row(title, name, power, reference, units, band) for name, title in titles.items()]
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", ""), "rx-dim rx-small")
     compared = tag("span", "vs. " if reference else None, _name("A"), against)
@@ -295,8 +291,7 @@ def _compared_row(
     changes = (BLANK, "") if reference is None else part_change(part, power, reference, band, units)
     fine = fineness(power, units)
     if part != "total":
-        titled = patch(PARTS[part]) + title
-        return _cells(titled, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
+        return _cells(patch(PARTS[part]) + title, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
     return _cells(title, (number(a, fine), number(b, fine), *changes), "rx-sum", tip("total_power"))
 
 
@@ -429,5 +424,4 @@ def pair_words(verdict: Verdict) -> str:
 
 
 def limit_words(name: str) -> str:
-    """The name of a limit as an engineer reads it."""
     return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")

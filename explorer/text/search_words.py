@@ -111,14 +111,9 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     ranges = {band.parameter: band for band in optimum.doubt_band}
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
         digits = _digits(parameter, ranges.get(parameter.name))
-        rows.append(
-            tag(
-                "tr",
-                tag("td", parameter.title),
-                tag("td.rx-num", number(parameter.shown(value), digits)),
-                tag("td.rx-dim.rx-unit", parameter.shown_unit),
-            )
-        )
+        shown = tag("td.rx-num", number(parameter.shown(value), digits))
+        unit = tag("td.rx-dim.rx-unit", parameter.shown_unit)
+        rows.append(tag("tr", tag("td", parameter.title), shown, unit))
     if ranges and optimum.doubt_cost is not None:
         moved = "; ".join(_range(parameter, ranges[parameter.name]) for parameter in concept.parameters)
         notes.append(f"With other inputs or inflow: {moved}.")

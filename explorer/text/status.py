@@ -4,7 +4,7 @@ import math
 import re
 from dataclasses import dataclass
 
-from explorer.model.stand import SHORT, airload_cases, as_measured, flight_powers
+from explorer.model.stand import SHORT, airload_cases, as_measured, flight_powers, place_of
 from explorer.model.units import number
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import SECTIONS, tip
@@ -28,8 +28,7 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
         problem = solution.message
     if problem is not None:
         # In full, even if it is a line longer than the box: the numbers below are out of date anyway.
-        sentence = f"{problem.rstrip('.')}. Greyed: last converged solution."
-        return _status("problem", tag("div.rx-sentence", sentence))
+        return _status("problem", tag("div.rx-sentence", f"{problem.rstrip('.')}. Greyed: last converged solution."))
     if solution is None:
         return _status("waiting", f"{compiling() or 'Computing the first trim'} …")
     caveats = [tag("div.rx-care", tag("span", "▲"), tag("span", text)) for text in cautions(solution, pinned)]
@@ -86,7 +85,6 @@ def provenance(solution: Solution) -> Markup:
 
 
 def section_title(section: str) -> str:
-    """The usual name of a section."""
     return SECTIONS.get(section) or ("SC1095 polynomials" if section.startswith("sc1095-thesis") else section)
 
 
@@ -206,13 +204,7 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
     if climb:
         return f"rate of climb {climb:g} m/s, tested in level flight"
     points = [point for point in measured.points if measured.counts(point)]
-    place = {
-        "mu": solution.design.condition.advance_ratio,
-        "ct": solution.ct,
-        "ct_over_sigma": solution.ct_over_sigma,
-        "collective_deg": math.degrees(solution.controls.collective),
-    }
-    for name, value in place.items():
+    for name, value in place_of(solution).items():
         if name not in measured.given:
             continue
         values = [point[name] for point in points]

@@ -14,7 +14,6 @@ from explorer.text.readout import part_change, part_titles
 from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
-from rotor.design import Harmonic
 from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
 from rotor.support.arrays import Array, Booleans
 from rotor.trim.doubt import Doubt
@@ -76,7 +75,7 @@ def _cause(before: Solution, after: Solution) -> str:
     if a.preset != b.preset:
         return f"Preset {b.preset} instead of {a.preset}"
     causes = [*_rotor_causes(a, b), *_model_causes(a, b), *_flight_causes(a, b)]
-    pitched, twisted = (a.pitch_per_rev, b.pitch_per_rev), (_active_waves(a), _active_waves(b))
+    pitched, twisted = (a.pitch_per_rev, b.pitch_per_rev), (a.active_waves, b.active_waves)
     for kind, (old, new) in (("root pitch", pitched), ("active twist", twisted)):
         if old != new:
             orders = " and ".join(f"{harmonic.per_rev}/rev" for harmonic in new)
@@ -92,10 +91,6 @@ def _cause(before: Solution, after: Solution) -> str:
     return text[:1].upper() + text[1:]
 
 
-def _active_waves(design: Design) -> tuple[Harmonic, ...]:
-    return () if design.active_twist is None else design.active_twist.harmonics
-
-
 def _rotor_causes(a: Design, b: Design) -> list[str]:
     if a.rotor.at_speed(100.0) == b.rotor.at_speed(100.0):
         return []
@@ -105,11 +100,8 @@ def _rotor_causes(a: Design, b: Design) -> list[str]:
 
 
 def _model_causes(a: Design, b: Design) -> list[str]:
-    causes = [
-        f"{'with' if getattr(b.models, name) else 'without'} {switch.title.lower()}"
-        for name, switch in SWITCHES.items()
-        if getattr(a.models, name) != getattr(b.models, name)
-    ]
+    switched = [name for name in SWITCHES if getattr(a.models, name) != getattr(b.models, name)]
+    causes = [f"{'with' if getattr(b.models, name) else 'without'} {SWITCHES[name].title.lower()}" for name in switched]
     for row in (QUANTITIES[name] for name in OPTIONS):
         if row.of(a) != row.of(b):
             causes.append(f"{'with' if row.of(b) else 'without'} {row.title.lower()}")

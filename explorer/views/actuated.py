@@ -263,8 +263,7 @@ def heat_here(now: PageState) -> float:
     if (on_blade := now.of(fitted)) is None:
         return 0.0
     losses = dict(zip(HARMONICS, on_blade.losses, strict=True))
-    waves = now.inputs.twist_per_rev
-    return sum(losses.get(each.per_rev, 0.0) * math.degrees(each.amplitude) ** 2 for each in waves)
+    return sum(losses.get(each.per_rev, 0.0) * math.degrees(each.amplitude) ** 2 for each in now.inputs.twist_per_rev)
 
 
 def parts_asked(now: PageState) -> Call | None:
@@ -285,10 +284,8 @@ def parts_here(now: PageState) -> tuple[tuple[str, float, float], ...]:
     if not isinstance(found, tuple) or drive is None:
         return ()
     steps = pairwise(cast("tuple[tuple[float, float], ...]", found))
-    parts = [
-        (name, before - after, band)
-        for name, ((before, _), (after, band)) in zip(("blade", "gross", "stiffness", "mass"), steps, strict=True)
-    ]
+    named = zip(("blade", "gross", "stiffness", "mass"), steps, strict=True)
+    parts = [(name, before - after, band) for name, ((before, _), (after, band)) in named]
     return (*(part for part in parts if part[1] or part[0] in ("gross", "mass")), ("drive", 0.0 - drive, 0.0))
 
 

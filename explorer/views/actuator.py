@@ -115,7 +115,6 @@ def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
 
 
 def actuator_titles() -> dict[str, str]:
-    """Titles of the menu of actuators, by id."""
     return {id: f"{id.replace('_', ' ')}: {actuator.mode}" for id, actuator in actuators().items()}
 
 

@@ -146,7 +146,6 @@ def feasible(now: PageState) -> ActuatorInputs | None:
 
 
 def _change_words(one: ActuatedBlade, other: ActuatorInputs | None) -> str:
-    """What the press changes."""
     if other is None:
         return ""
     plies = "" if other.plies == one.inputs.plies else f"{other.plies} {one.installed.actuator.noun[other.plies > 1]}"

@@ -22,6 +22,7 @@ from explorer.workers.call import Call
 from rotor import Design
 from rotor.actuator import EffectInFlight, Programme, effect, programmes
 from rotor.design import Harmonic
+from rotor.design.design import with_models
 from rotor.optimisation.vibration import with_harmonics
 from rotor.support.chart import Axis, Chart, Line, Points, Rule, drawn_chart, round_ticks, tick_text
 from rotor.support.markup import tag
@@ -53,7 +54,7 @@ def _asked(now: PageState) -> tuple[Call, ...]:
     reach = (0.0 if on_blade is None else round(on_blade.whole, 2)) or _FRONT_REACH_DEG
     shaped, calls = with_harmonics(design, (Harmonic(3, math.radians(1.0)),)), list[Call]()
     for inflow in dict.fromkeys((design.models.inflow, *band_inflows())):
-        flown = replace(shaped, models=replace(shaped.models, inflow=inflow))
+        flown = with_models(shaped, inflow=inflow)
         calls.append(Call(dial_answer, (flown, losses, 0.0 if calls else reach)))
     return tuple(calls)
 
@@ -247,11 +248,7 @@ def _spread(name: str, value: float, ends: tuple[float, float], digits: int) -> 
 def front_chart(dots: Sequence[FrontDot]) -> Chart:
     """The front beside what other programmes reached, where power and vibration belong to one input."""
     shown = [result for result in programmes() if result.together and result.power_change_percent is not None]
-    powers = [
-        0.0,
-        *(end for dot in dots for end in dot.powers),
-        *(result.power_change_percent or 0.0 for result in shown),
-    ]
+    powers = [0.0, *(end for dot in dots for end in dot.powers), *(one.power_change_percent or 0.0 for one in shown)]
     most = max(40.0, *(1.15 * dot.index for dot in dots)) if dots else 40.0
     spreads = [Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots]
     spreads += [Line("", dot.powers, (dot.index, dot.index), _SPREAD, width=4.0) for dot in dots]

@@ -25,10 +25,8 @@ def details(now: PageState) -> dict[str, Any]:
     if pinned is None:
         tables = readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
     else:
-        tables = (
-            readout.compared_power_panel(solution, pinned, units, band),
-            readout.compared_trim_panel(solution, pinned),
-        )
+        power = readout.compared_power_panel(solution, pinned, units, band)
+        tables = power, readout.compared_trim_panel(solution, pinned)
     power, trim = map(readout.faded, tables) if now.problem else tables
     return {"details.power": power, "details.trim": trim}
 
@@ -49,9 +47,7 @@ def trust(now: PageState) -> dict[str, Any]:
 
 
 def _models_asked(now: PageState) -> tuple[Questions, ...]:
-    return tuple(
-        Questions(_URGENCY, (Call(alternative_models, designs.about),), _STILL) for designs in shown_doubt(now)
-    )
+    return tuple(Questions(_URGENCY, (Call(alternative_models, work.about),), _STILL) for work in shown_doubt(now))
 
 
 DETAILS = Panel(details, lambda ui: ui.drawer == "details", works=shown_doubt)

@@ -17,7 +17,7 @@ from explorer.text.readout import balance, change_kind, fuel_words, pair_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, parts_asked, parts_here, trims_here
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
-from rotor.actuator.stopped import TrimNumbers, numbers_of
+from rotor.actuator.stopped import numbers_of
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
 from rotor.trim.doubt import sureness
 
@@ -83,7 +83,10 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     tip = math.degrees(one.inputs.tip(one.installed))
     state, words = hand.state, ""
     if now.of(trims_here) is not None and now.state is not None:
-        words = _flown_words(STATES[state], numbers_of(now.state.solution, one.design.twist), now.units)
+        there = numbers_of(now.state.solution, one.design.twist)
+        left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
+        stalled = f"disk {number(100.0 * there.stalled_area, 1)} % stalled"
+        words = f"{STATES[state]}: {now.units.watts(there.power)}, {stalled}{left}"
     return FlightPart(
         legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::POINTS_PER_LEG]),
         at=round(position_of(legs, now.inputs.advance_ratio), 3),
@@ -99,12 +102,6 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
 _SIGNS: Mapping[str, Sign] = {"": "", "less": "gain", "more": "loss"}
 STATES: Mapping[ActuatorState, str] = {"set": "as set", "schedule": "by schedule", "stopped": "stopped"}
 """States of the actuator, as they are called."""
-
-
-def _flown_words(state: str, there: TrimNumbers, units: Units) -> str:
-    """How it flies in this state."""
-    left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
-    return f"{state}: {units.watts(there.power)}, disk {number(100.0 * there.stalled_area, 1)} % stalled{left}"
 
 
 def flight_chart(flight: ActuatorFlight | None, last: float, state: ActuatorState, tip: float) -> Chart:
@@ -253,11 +250,5 @@ def _driven(now: PageState, x: float | None) -> dict[str, Any]:
     return {} if flight is None else schedule_at(flight, one.installed, POINTS_PER_LEG * x)
 
 
-FLIGHT = Panel(
-    view,
-    blade_out,
-    asks=asks,
-    remember=remember,
-    reacts=follow_flight,
-    presses={"fly": fly_to, "state": choose_state, "balance": choose},
-)
+_PRESSES = {"fly": fly_to, "state": choose_state, "balance": choose}
+FLIGHT = Panel(view, blade_out, asks=asks, remember=remember, reacts=follow_flight, presses=_PRESSES)

@@ -42,7 +42,7 @@ def works(now: PageState) -> tuple[PanelWork, ...]:
 
 def line(now: PageState) -> LinePart:
     """What the hand has set, and the answer of the last trim; while there is none of it, why."""
-    one, state, units = _on_board(now), now.state, now.units
+    one, state, units = actuated_blade(now) if in_actuate(now.ui) else None, now.state, now.units
     problem = units.in_sliders(now.problem, 0.0 if one is None else one.mass)
     pieces = flight_pieces(now.shown, units)
     pieces += twist_pieces(now.shown, now.preview or now.sliders) if one is None else _actuator(one)
@@ -57,11 +57,6 @@ def line(now: PageState) -> LinePart:
     pieces += power_pieces(state.solution, units, band, known)
     pieces += _change_here(one) if one is not None else _change(now)
     return LinePart(pieces, status(state, units), said, held=now.ui.held)
-
-
-def _on_board(now: PageState) -> ActuatedBlade | None:
-    """The actuator that the line speaks of."""
-    return actuated_blade(now) if in_actuate(now.ui) else None
 
 
 def _actuator(one: ActuatedBlade) -> list[LinePiece]:

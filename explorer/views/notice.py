@@ -59,8 +59,7 @@ def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units)
 def prompt(now: PageState) -> dict[str, SceneLabel | None]:
     """What to do first, until something was done."""
     tip = [0.97 * now.inputs.aircraft.rotor_for(now.inputs.preset).radius, 0.0, 0.0]
-    label = SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip)
-    return {"prompt": None if any(now.steps) else label}
+    return {"prompt": None if any(now.steps) else SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip)}
 
 
 NOTICE = Panel(notice, works=game_doubt)

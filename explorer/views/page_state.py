@@ -108,8 +108,7 @@ class PageState:
         """What the sliders show: the inputs, or in their place a design that a search previews."""
         if self.preview is None:
             return self.inputs
-        previewed = with_optimum(self.inputs, self.preview)
-        return replace(previewed, advance_ratio=self.preview.condition.advance_ratio)
+        return replace(with_optimum(self.inputs, self.preview), advance_ratio=self.preview.condition.advance_ratio)
 
     @property
     def units(self) -> Units:

@@ -143,7 +143,6 @@ class PanelUpdater:
                 queue.rest(resting)
 
     def stop(self) -> None:
-        """The browser has left."""
         for queues in self._queues:
             for queue in queues.values():
                 queue.stop()

@@ -16,7 +16,7 @@ from explorer.model.actuator_inputs import as_it_comes
 from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
-from explorer.text.line import listed
+from explorer.text.design_words import listed
 from explorer.text.readout import change_sizes, kilograms, limit_words, needs, needs_words
 from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, against_words, here_problem, in_actuate
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
@@ -59,9 +59,7 @@ def _kinds(one: ActuatedBlade, now: PageState) -> Markup:
     for id in sorted(one.outcomes, key=list(actuators()).index):
         rows += _kind(one, id, now.units)
     mission = " and ".join(map(flight_text, one.inputs.advance_ratios))
-    note = (
-        f"Power by schedule over the mission, mean of {mission}, against the {against_words(one, one.inputs.against)}."
-    )
+    note = f"Power by schedule, mean of {mission}, against the {against_words(one, one.inputs.against)}."
     return tag("div.rx.rxa-kinds", tag("table", rows), tag("p.rx-dim", note), press, data_explorer="kinds")
 
 

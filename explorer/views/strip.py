@@ -88,7 +88,6 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
 
 
 def bands_asked(now: PageState) -> Call | None:
-    """Of the band of the curve, in flight."""
     if now.state is None or now.problem or now.state.inputs.stand is not None:
         return None
     design, reference = now.state.solution.design, now.state.reference

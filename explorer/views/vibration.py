@@ -6,7 +6,6 @@ wakes is computed while the page rests.
 
 import math
 from collections.abc import Generator
-from dataclasses import replace
 from typing import Any
 
 from explorer.model.session_state import SessionState
@@ -18,6 +17,7 @@ from explorer.views.page_state import PageState, Panel, PanelWork, Tell, in_one
 from rotor import Design, Solution, hub_loads, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
+from rotor.design.design import with_models
 from rotor.trim import Analysis, HubLoads, analyse, why_no_hub_loads
 from rotor.trim.hub_loads import band_designs, band_inflows
 
@@ -53,7 +53,7 @@ def _loads_work(now: PageState, solution: Solution, band: bool) -> PanelWork:
     def run(tell: Tell) -> Generator[None, None, tuple[HubLoads | None]]:
         trims, given = dict[Design, Analysis](), solution.design
         if why_no_hub_loads(given) is None:
-            bent = replace(given, models=replace(given.models, bending=True))
+            bent = with_models(given, bending=True)
             for design in {bent, *(band_designs(bent) if band else ())} - {given}:
                 yield
                 trims[design] = analyse(design)
@@ -74,7 +74,7 @@ def _loads(now: PageState, solution: Solution, band: bool) -> HubLoads | None:
 
 def _rigid_power(solution: Solution) -> float:
     """Power without bending [W]; NaN where that does not trim."""
-    rigid = solve(replace(solution.design, models=replace(solution.design.models, bending=False)))
+    rigid = solve(with_models(solution.design, bending=False))
     return rigid.power.total if rigid.converged else math.nan
 
 

@@ -12,12 +12,8 @@ def has_power(design: Design) -> bool:
 
 def doubt_work(name: str, solution: Solution, reference: Solution | None, analyses: Analyses) -> PanelWork:
     """How sure power is, and its change from the reference: a `Doubt` about the two designs."""
-    return PanelWork(
-        name,
-        (solution.design, reference and reference.design),
-        in_one(lambda: doubt(analyses.of(solution), reference and analyses.of(reference))),
-        soon=True,
-    )
+    run = in_one(lambda: doubt(analyses.of(solution), reference and analyses.of(reference)))
+    return PanelWork(name, (solution.design, reference and reference.design), run, soon=True)
 
 
 def shown_doubt(now: PageState) -> tuple[PanelWork, ...]:

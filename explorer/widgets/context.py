@@ -31,8 +31,6 @@ BEAT = 0.05
 
 @dataclass(frozen=True)
 class SharedServices:
-    """What the pages of one server share."""
-
     pool: Processes
     presentations: Presentations
 

@@ -79,8 +79,7 @@ class DesignControls:
         self._fold = gui.add_html("")
         with gui.add_folder("Model", expand_by_default=False):
             for name in ("preset", *INFLOW_MENUS):
-                titles = INFLOW_MENUS.get(name, PRESET_TITLES)
-                form.menu(name, ROWS[name].title, titles, getattr(start, name))
+                form.menu(name, ROWS[name].title, INFLOW_MENUS.get(name, PRESET_TITLES), getattr(start, name))
                 if name == "inflow":
                     self._explanation = gui.add_html("")
             self._costs: dict[str, viser.GuiHtmlHandle] = {}
@@ -106,7 +105,6 @@ class DesignControls:
 
     @property
     def aircraft(self) -> Aircraft:
-        """That of the inputs."""
         return (self._own or self._special).aircraft
 
     def hold(self, held: bool) -> None:
@@ -198,8 +196,7 @@ class DesignControls:
         """With a row below each for the arrow of its power sensitivity."""
         for name in names:
             form, below = slider(name, SI, self._start.aircraft), tag("div.rxp-worth", data_worth=name)
-            value = float(getattr(self._start, name))
-            self.form.slider(name, form, value, visible=name in seen, below=below)
+            self.form.slider(name, form, float(getattr(self._start, name)), visible=name in seen, below=below)
 
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name == "preset":
@@ -242,12 +239,8 @@ def _beside(part: str, words: str) -> Markup:
 def _flight_heading(speed: float, units: Units, tested: bool = False) -> Markup:
     """The heading of the flight sliders with the airspeed [m/s], where the pointer rests as each reader reads it."""
     words, title = units.airspeed(speed), "TEST STAND" if tested else "FLIGHT"
-    return tag(
-        "div.rxp-head",
-        title,
-        tag("span.rx-num", words.partition(" · ")[0], title=words, data_explorer="speed"),
-        data_ruled=True,
-    )
+    airspeed = tag("span.rx-num", words.partition(" · ")[0], title=words, data_explorer="speed")
+    return tag("div.rxp-head", title, airspeed, data_ruled=True)
 
 
 _ALWAYS = ("advance_ratio", "mass_t")

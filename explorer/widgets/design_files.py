@@ -125,9 +125,7 @@ def add_rotor_upload(context: TabContext) -> None:
 
 def _about(fits: bool) -> str:
     """What the button of the link will do."""
-    words = (
-        "Anyone with the link sees this design." if fits else "Too large for a link: save it as a file, and send that."
-    )
+    words = "Anyone with the link sees this design." if fits else "Too large for a link: save a file, and send that."
     return tag("div.rx.rx-dim.rx-small", words)
 
 
@@ -217,9 +215,7 @@ class FilePanel:
         name = shorten(file.name)
         try:
             if len(file.content) > share.MOST_BYTES:
-                raise ValueError(
-                    f"{name} has {len(file.content)} bytes: the limit for a design file is {share.MOST_BYTES}."
-                )
+                raise ValueError(f"{name} has {len(file.content)} bytes: design files have at most {share.MOST_BYTES}.")
             with refusing(f"design file {name!r}", "check its values"):
                 design = parse_design(file.content, name)
                 inputs, carried = share.within(inputs_of(design)), design.rotor.blade.carried

@@ -91,8 +91,7 @@ class ExportPanel:
     def _tables(self, state: SessionState) -> bytes:
         design, reference = state.solution.design, state.reference.design
         at_once(self._curves.sweep(design, reference))
-        curve = self._curves.known(design, reference)
-        return tables_zip(state.solution, reference, curve, state.view.azimuth_deg)
+        return tables_zip(state.solution, reference, self._curves.known(design, reference), state.view.azimuth_deg)
 
     def _picture(self, state: SessionState) -> bytes:
         """The scene framed anew for the picture's shape, the same from a window of any size."""

@@ -114,7 +114,6 @@ class WidgetForm:
         return meant(self._rows[name], place, self._units) if name in self._rows else place
 
     def values(self) -> dict[str, Any]:
-        """All of them, by name."""
         return {name: self[name] for name in self._handles}
 
     def sliders(self, label: str) -> list[str]:
@@ -145,7 +144,6 @@ class WidgetForm:
         self._moved(name, True)
 
     def __contains__(self, name: str) -> bool:
-        """Whether it has this slider."""
         return name in self._placed
 
     def fit(self, name: str, form: Slider, value: float) -> None:
@@ -175,7 +173,6 @@ class WidgetForm:
         self.place(name, value)
 
     def show(self, seen: Mapping[str, bool]) -> None:
-        """Which widgets are on the page."""
         for name, visible in seen.items():
             if self._handles[name].visible != visible:
                 self._handles[name].visible = visible
@@ -190,7 +187,6 @@ class WidgetForm:
             handle.min = low
 
     def call(self, name: str, label: str) -> None:
-        """Another label."""
         self._handles[name].label = label
 
     def disable(self, held: Mapping[str, bool]) -> None:
@@ -241,7 +237,6 @@ class StandControls:
         self.place(start)
 
     def place(self, inputs: Inputs) -> None:
-        """Show these inputs."""
         self.stand = stand = inputs.stand
         titles = {key: title for key, title in TRIM_TITLES.items() if key != "flight" or not inputs.aircraft.isolated}
         self.form.offer(_TRIM, titles, "flight" if stand is None else stand.trim)
@@ -269,20 +264,15 @@ class StandControls:
             mach = stand.tip_mach
             self._fit(inputs, "tip_mach", inputs.tip_speed / air.sound_speed if mach is None else mach)
             self._fit(inputs, "density", air.density if stand.density is None else stand.density)
-        conditions = [
-            condition for condition in measured_conditions(inputs.rotor) if (condition.stand is None) == flown
-        ]
+        conditions = [one for one in measured_conditions(inputs.rotor) if (one.stand is None) == flown]
         here = (one for one in conditions if all(getattr(inputs, name) == at for name, at in one.inputs.items()))
         now = next(here, None)
         tests = [_NONE, *dict.fromkeys(condition.test for condition in conditions)]
         self.form.show({_TEST: bool(conditions), _POINT: now is not None})
         self.form.offer(_TEST, {name: name for name in tests}, _NONE if now is None else now.test)
         if now is not None:
-            self.form.offer(
-                _POINT,
-                {condition.label: condition.label for condition in conditions if condition.test == now.test},
-                now.label,
-            )
+            labels = {condition.label: condition.label for condition in conditions if condition.test == now.test}
+            self.form.offer(_POINT, labels, now.label)
 
     def _heard(self, name: str, by_hand: bool) -> None:
         """The value is `stand`, so that only what a hand does counts."""
@@ -326,11 +316,8 @@ class StandControls:
 
     def _change_load(self, load: str) -> None:
         solution = self._solution()
-        usual = {
-            "ct_over_sigma": 0.07,
-            "collective_deg": 8.0,
-            "thrust_n": 0.3 * stand_slider("thrust_n", self._inputs()).high,
-        }
+        usual = {"ct_over_sigma": 0.07, "collective_deg": 8.0}
+        usual["thrust_n"] = 0.3 * stand_slider("thrust_n", self._inputs()).high
         if self.stand is not None:
             value = usual[load] if solution is None else load_of(solution, load)
             self._change(replace(self.stand, load=load, value=value))

@@ -36,10 +36,8 @@ def kept_rows(kept: Sequence[KeptDesign], units: Units = SI) -> Markup:
     rows: list[Markup] = []
     for k, item in enumerate(kept):
         take, drop = ({"data_write": FIELD, "data_value": f"{verb} {k}"} for verb in ("take", "drop"))
-        name = (
-            tag("div", title_words(item.solution.design)),
-            tag("div.rx-dim.rx-small", flight_name(item.inputs, units)),
-        )
+        flight = tag("div.rx-dim.rx-small", flight_name(item.inputs, units))
+        name = tag("div", title_words(item.solution.design)), flight
         rows.append(
             tag(
                 "tr",

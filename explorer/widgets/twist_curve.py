@@ -181,8 +181,7 @@ class TwistCurveEditor:
     def show(self, state: SessionState) -> None:
         """Draw the jig twist over what it is compared with, as the pitch less that at 0.75 R, and the flown twist."""
         design = state.solution.design
-        root = design.rotor.blade.root_cutout
-        r = np.linspace(root, 1.0, _POINTS)
+        r = np.linspace(design.rotor.blade.root_cutout, 1.0, _POINTS)
         angles, other = shown_twist(design)(r), shown_twist(state.reference.design)(r)
         flown = flown_band(state.solution, r)
         seen = np.concatenate((angles, other, *(flown or ())))

@@ -28,7 +28,6 @@ _BRAND = (37, 99, 235)
 
 
 def theme(client: viser.ClientHandle, dark: bool) -> None:
-    """A dark page or a light one."""
     client.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False, brand_color=_BRAND)
 
 

@@ -24,8 +24,6 @@ WorkState = Literal["starting", "waiting", "running", "stopping", "done", "stopp
 
 @dataclass(frozen=True, eq=False)
 class WorkRecord:
-    """Long work as it stands."""
-
     task: Any
     state: WorkState = "starting"
     ahead: int = 0
@@ -115,7 +113,6 @@ class LongWork:
         self._wake()
 
     def stop(self) -> None:
-        """The browser has left."""
         for name in tuple(self._jobs):
             self._silence(name)
 
@@ -190,14 +187,12 @@ class PoolAnswers:
             return {**self._failures}
 
     def rest(self, resting: bool) -> None:
-        """Whether no task begins."""
         with self._lock:
             self._resting = resting
             if self._timer is None:
                 self._next_one()
 
     def stop(self) -> None:
-        """The browser has left."""
         with self._lock:
             self._stopped = True
             self._stop_timer()
@@ -227,8 +222,7 @@ class PoolAnswers:
             if self._urgency >= _GIVES_WAY and UPDATES.busy:
                 self._next_after(_LOOKS_AGAIN_S)
             else:
-                keep = partial(self._keep, task)
-                self._job = self._pool.begin(task, keep, limit=_LIMIT, urgency=self._urgency)
+                self._job = self._pool.begin(task, partial(self._keep, task), limit=_LIMIT, urgency=self._urgency)
 
     def _keep(self, task: Call, news: JobEvent) -> None:
         match news:

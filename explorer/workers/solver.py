@@ -144,10 +144,8 @@ class MapTask:
                 # valleys side by side.
                 near = [min(known, key=lambda at, c=cell: math.dist(at, c), default=None) for cell in cells]
                 places = [(column / finest, row / finest) for row, column in cells]
-                begun = [
-                    self.place(*place, self.values if at is None else known[at][1])
-                    for place, at in zip(places, near, strict=True)
-                ]
+                nearby = [self.values if at is None else known[at][1] for at in near]
+                begun = [self.place(*place, values) for place, values in zip(places, nearby, strict=True)]
                 found, several = self._least(begun, history, self.axes), len(self.values) > len(self.axes)
                 across = self._least(map(self._across, begun), history, self.axes) if several else found
                 known.update(zip(cells, map(_lower, found, across), strict=True))

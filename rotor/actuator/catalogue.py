@@ -1,6 +1,5 @@
 """What the data files say: actuators, engines of the shipped aircraft, and what published programmes reached."""
 
-import tomllib
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal, TypeVar
@@ -12,8 +11,8 @@ from rotor.actuator.laminate import ExtensionTwist
 from rotor.actuator.ply import PiezoPly
 from rotor.actuator.tube import TorqueTube
 from rotor.design.aircraft import Aircraft
-from rotor.support.assets import asset_path
-from rotor.support.user_input import did_you_mean
+from rotor.support.assets import toml_asset
+from rotor.support.user_input import check_known
 
 STEPS = ("numerical studies", "small-scale tests", "full-scale wind tunnel", "demonstrator", "production")
 """Steps of development, from 1. Source: Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems,
@@ -28,7 +27,7 @@ K = TypeVar("K", bound=Actuator)
 def of_kind(kind: type[K]) -> dict[str, K]:
     """All actuators of a kind by id."""
     table = next(name for name, known in KINDS.items() if known is kind)
-    rows = map(in_si, _data("actuators")[table])
+    rows = map(in_si, toml_asset("actuators.toml")[table])
     return {row["id"]: kind.read({**row, **_shared(row)}) for row in rows}
 
 
@@ -48,16 +47,8 @@ def actuators() -> dict[str, Actuator]:
 
 def find_actuator(id: str) -> Actuator:
     """One actuator; ValueError names the known ones."""
-    known = actuators()
-    if id not in known:
-        hint = did_you_mean(id, known) or ":"
-        raise ValueError(f"actuator {id!r} is not known{hint} use one of {', '.join(known)}")
-    return known[id]
-
-
-@cache
-def _data(name: str) -> dict[str, Any]:
-    return tomllib.loads(asset_path(f"{name}.toml").read_text(encoding="utf-8"))
+    check_known("actuator", id, actuators())
+    return actuators()[id]
 
 
 HORSEPOWER = 745.699872
@@ -97,7 +88,7 @@ class Engines:
 
 def engines_of(aircraft: Aircraft) -> Engines | None:
     """The engines of a shipped aircraft; None without a source for their fuel flow."""
-    row = _data("engines").get(aircraft.key)
+    row = toml_asset("engines.toml").get(aircraft.key)
     if row is None:
         return None
     points = zip(row.get("power_hp", ()), row.get("flow_lb_h", ()), strict=True)
@@ -166,7 +157,7 @@ class Programme:
 @cache
 def programmes() -> tuple[Programme, ...]:
     """All published results, in the order of the data file."""
-    return tuple(_programme(row) for row in _data("active_twist_programmes")["programme"])
+    return tuple(_programme(row) for row in toml_asset("active_twist_programmes.toml")["programme"])
 
 
 def _programme(row: dict[str, Any]) -> Programme:

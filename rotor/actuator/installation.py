@@ -106,8 +106,7 @@ def with_actuator_mass(design: Design, installed: InstalledActuator, carried: Ca
         raise ValueError(f"the blades carry {design.rotor.blade.carried.name} already: give a design without actuator")
     carried = carried or _carried(installed, (), False, installed.actuator.id.replace("_", " "))
     condition = replace(design.condition, mass=design.condition.mass + carried.aircraft_kg)
-    rotor = carrying(design.rotor, carried, elastic=design.elastic)
-    return replace(design, rotor=rotor, condition=condition)
+    return replace(design, rotor=carrying(design.rotor, carried, elastic=design.elastic), condition=condition)
 
 
 def drive_name(installed: InstalledActuator, shares: Sequence[float]) -> str:
@@ -117,9 +116,7 @@ def drive_name(installed: InstalledActuator, shares: Sequence[float]) -> str:
     return f"{installed.actuator.id.replace('_', ' ')} at {ends} {installed.actuator.drive_unit}".replace("-", "−")
 
 
-def carrying_driven(
-    design: Design, installed: InstalledActuator, shares: Sequence[float], *, crossed: bool = False
-) -> Design:
+def carrying_driven(design: Design, installed: InstalledActuator, shares: Sequence[float], *, crossed: bool) -> Design:
     """The design with an actuator on its blades: mass, stiffness, and the twist of its drive.
 
     shares: drive of each segment, −1…1 of either side. crossed: fibres laid the other way.
@@ -182,9 +179,7 @@ def read_actuator(text: str) -> ActuatorSpec:
         except ValueError:
             numbers = ()
         if key not in known or not numbers or not np.isfinite(numbers).all():
-            raise ValueError(
-                f"actuator {text!r:.80} has {word!r:.40}: write KEY=NUMBER with {', '.join(sorted(known))}"
-            )
+            raise ValueError(f"actuator {text!r:.80} has {word!r:.40}: write KEY=NUMBER of {', '.join(sorted(known))}")
         given[key] = numbers
     plain, gj, drives = default_placement(), given.get("gj"), given.get("drive", (0.0,))
     span, chord = given.get("span", plain.span), given.get("chord", plain.chord)

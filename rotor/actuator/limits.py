@@ -126,12 +126,8 @@ def fibre_strain(installed: InstalledActuator, nu: float, solution: Solution | N
         bending = moment * arm / rotor_structure.at(metres, rotor_structure.flap_stiffness)
     # 2A/s of a closed contour is its mean thickness, at most the greatest: on the safe side.
     shear = abs(installed.twist_rate) * 2.0 * HALF_THICKNESS * rotor_structure.chord
-    return FibreStrain(
-        r=r,
-        centrifugal=along * pull / rotor_structure.axial_stiffness,
-        flap=along * bending,
-        twist=np.full_like(r, abs(s * c) * shear),
-    )
+    pulled = along * pull / rotor_structure.axial_stiffness
+    return FibreStrain(r=r, centrifugal=pulled, flap=along * bending, twist=np.full_like(r, abs(s * c) * shear))
 
 
 def limits(

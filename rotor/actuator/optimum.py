@@ -28,6 +28,8 @@ from rotor.trim.adjoint import PitchGradient
 from rotor.trim.solution import Solution
 from rotor.trim.solve import analyse
 
+Starts = Sequence[Sequence[float]]
+"""Parameters to begin from, each of one descent."""
 STATIONS = np.linspace(0.0, 1.0, 41)
 """r/R between which the actuator's shapes are straight."""
 FLATTENED_SHARE = 0.5
@@ -47,9 +49,7 @@ class ConditionPair:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.share < 1.0:
-            raise ValueError(
-                f"time share {self.share:g} is not between 0 and 1: give the fraction of time in the second condition"
-            )
+            raise ValueError(f"time share {self.share:g} is outside 0…1: give the part of time in the second condition")
         if self.advance_ratios[0] == self.advance_ratios[1]:
             raise ValueError(f"both conditions have advance ratio {self.advance_ratios[0]:g}: give two that differ")
 
@@ -63,7 +63,6 @@ class ConditionPair:
         return sum(share * value for share, value in zip(self.shares, values, strict=True))
 
     def designs(self, base: Design | None = None) -> tuple[Design, Design]:
-        """The design at both conditions."""
         base = base or self.design
         first, second = (
             replace(base, condition=replace(base.condition, advance_ratio=mu)) for mu in self.advance_ratios
@@ -86,12 +85,7 @@ class TwistOptimum:
 
 
 def best_twist(
-    design: Design,
-    concept: Concept,
-    starts: Sequence[Sequence[float]] = (),
-    *,
-    alone: bool = False,
-    known: "_Known | None" = None,
+    design: Design, concept: Concept, starts: Starts = (), *, alone: bool = False, known: "_Known | None" = None
 ) -> TwistOptimum:
     """The concept's twist of least power at one condition; `alone`: search from these starts only."""
     return _search(((design,), (1.0,), ()), concept, None, starts, alone=alone, known=known)
@@ -108,7 +102,7 @@ def best_actuated(
     installed: InstalledActuator,
     *,
     scale: float = 1.0,
-    starts: Sequence[Sequence[float]] = (),
+    starts: Starts = (),
     near: Sequence[Solution] = (),
 ) -> TwistOptimum:
     """Least mean power [W] with the actuator within `scale` times its range; `near`: trims to start from."""
@@ -137,7 +131,7 @@ def _search(
     flights: _Flights,
     concept: Concept,
     fitted: _Fitted,
-    starts: Sequence[Sequence[float]],
+    starts: Starts,
     *,
     alone: bool = False,
     known: _Known | None = None,
@@ -161,9 +155,7 @@ def _search(
             jigs += [first, flatter]
     optima = [reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None]
     if not optima:
-        raise RuntimeError(
-            "No twist of this concept trims at these flight conditions: reduce the mass or the advance ratio."
-        )
+        raise RuntimeError("No twist of this concept trims at these conditions: reduce mass or advance ratio.")
     return min(optima, key=lambda reached: reached.power)
 
 

@@ -151,9 +151,7 @@ class _Flown:
 
     def power(self, rates: tuple[float, float], mass: float = 0.0) -> float:
         """With a mass on all blades together [kg]."""
-        designs = [
-            self.base.concept.apply(design, [rate]) for design, rate in zip(self.pair.designs(), rates, strict=True)
-        ]
+        designs = [self.base.concept.apply(one, [rate]) for one, rate in zip(self.pair.designs(), rates, strict=True)]
         trims = tuple(
             solve(with_mass(design, mass), near).require() for design, near in zip(designs, self.trims, strict=True)
         )
@@ -256,9 +254,7 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     installed, base = verdict.installed, verdict.baseline
     mass = installed.masses.aircraft
     if not mass:
-        raise ValueError(
-            f"{installed.actuator.name} adds no mass, so no break-even mass applies: choose another actuator"
-        )
+        raise ValueError(f"{installed.actuator.name} adds no mass, so it has no break-even: choose another actuator")
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
     parts, start, flown = verdict.parts_doubt, [verdict.resting.values], verdict.optimum.solutions
     if not flown:  # The trims were left behind.
@@ -273,11 +269,8 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     strokes = sorted(powers)
     least = [min(strokes[: k + 1], key=lambda stroke: powers[stroke]) for k in range(len(strokes))]
     saved = np.array([verdict.reference_power - verdict.drive.hold_power - powers[stroke] for stroke in least])
-    twists, per_kg, carried = (
-        np.array(strokes) * installed.attainable,
-        verdict.mass_cost / mass,
-        _changes(parts["mass"]),
-    )
+    twists, per_kg = np.array(strokes) * installed.attainable, verdict.mass_cost / mass
+    carried = _changes(parts["mass"])
     net = _changes(verdict.doubt) - carried
     changes = {stroke: sum(map(_changes, each), net * (stroke > 0.0)) for stroke, each in doubts.items()}
     return OtherStroke(twists, saved, per_kg, np.array([changes[stroke] for stroke in least]).T, carried / mass)

@@ -174,10 +174,8 @@ class PiezoPly(Actuator):
         """Energy ½C ΔV² of each segment over the slewing time."""
         data = structure_data()["electrical"]
         per_area = self.capacitance_per_area * installed.placement.plies
-        energy = sum(
-            0.5 * per_area * area * (swing * self.voltage_swing) ** 2
-            for area, swing in zip(installed.segment_areas, swings, strict=True)
-        )
+        segments = zip(installed.segment_areas, swings, strict=True)
+        energy = sum(0.5 * per_area * area * (swing * self.voltage_swing) ** 2 for area, swing in segments)
         time = float(data["slew_s"])
         slew = installed.masses.blades * energy / time / float(data["amplifier_efficiency"])
         return Drive(self.capacitance(installed), 0.0, slew, time)
@@ -205,10 +203,8 @@ class PiezoPly(Actuator):
             needs, swings_by = "is out of range at any voltage", "would have to swing by hundreds of kV/mm"
         by_voltage = f"The required twist {needs}; the range is {span}."
         by_field = f"The field {swings_by}; a reverse field beyond the range depolarises the sheet."
-        return (
-            Limit("voltage", ok, most, self.voltage_swing, "V", by_voltage),
-            Limit("field", ok, field, allowed, "kV/mm", by_field),
-        )
+        voltage = Limit("voltage", ok, most, self.voltage_swing, "V", by_voltage)
+        return voltage, Limit("field", ok, field, allowed, "kV/mm", by_field)
 
     def _strain(self, installed: InstalledActuator, solution: Solution | None) -> Limit:
         strain = fibre_strain(installed, self.material.nu12, solution)

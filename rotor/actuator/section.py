@@ -45,9 +45,7 @@ class Placement:
         if not 0.0 <= front < rear <= 0.95:
             raise ValueError(f"active chord {front:g}…{rear:g} is not inside 0…0.95 c: give front < rear as x/c")
         if not 1 <= self.plies <= 12:
-            raise ValueError(
-                f"{self.plies} plies are outside 1…12: choose a number inside (six weigh as much as half a blade)"
-            )
+            raise ValueError(f"{self.plies} plies are outside 1…12: choose a number inside (six weigh half a blade)")
         if any(a >= b for a, b in pairwise((0.0, *self.divisions, 1.0))):
             raise ValueError(f"segment divisions {list(self.divisions)} must ascend between 0 and 1")
 
@@ -61,8 +59,6 @@ class Placement:
 
 @dataclass(frozen=True)
 class HostBlade:
-    """The blade that carries the actuator."""
-
     kind: BladeKind = "retrofit"
     """`retrofit`: outside the skins of the existing blade; `new`: in the torsion skin of a new blade."""
     stiffness: float = 1.0
@@ -70,13 +66,9 @@ class HostBlade:
 
     def __post_init__(self) -> None:
         if not 0.1 <= self.stiffness <= 2.0:
-            raise ValueError(
-                f"blade stiffness {self.stiffness:g} is outside 0.1…2: give GJ relative to the existing blade"
-            )
+            raise ValueError(f"blade stiffness {self.stiffness:g} is outside 0.1…2: give GJ over the existing blade's")
         if self.kind == "retrofit" and self.stiffness != 1.0:
-            raise ValueError(
-                f"a retrofit keeps the blade, so its stiffness cannot be {self.stiffness:g}: use 1, or a new blade"
-            )
+            raise ValueError(f"a retrofit keeps the blade's stiffness, not {self.stiffness:g}: use 1, or a new blade")
 
     @property
     def label(self) -> str:
@@ -100,8 +92,6 @@ POINTS = 60
 
 @dataclass(frozen=True)
 class SectionSpec:
-    """Passive data of a section."""
-
     host: HostBlade
     chord: float
     """[m]"""
@@ -126,8 +116,7 @@ def calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | No
     thinnest, thickest = 5e-5, 2e-2
     if excess(thinnest) > 0.0:
         raise ValueError(
-            f"the plies alone are stiffer than the GJ of {spec.stiffness:.0f} N·m² required: "
-            "use fewer plies or a stiffer blade"
+            f"the plies are stiffer than the required {spec.stiffness:.0f} N·m²: use fewer plies or a stiffer blade"
         )
     return float(scipy.optimize.brentq(excess, thinnest, thickest, xtol=1e-8))
 

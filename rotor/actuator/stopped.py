@@ -18,8 +18,6 @@ from rotor.trim.solve import solve
 
 @dataclass(frozen=True)
 class TrimNumbers:
-    """The numbers of one trim."""
-
     twist: float
     """Twist of the tip relative to the root, built in as well [rad]."""
     power: float | None
@@ -94,8 +92,7 @@ def failure(
         if design is None:
             raise ValueError("an actuator needs a blade: give a design, for example rotor.make_design()")
         actuator = try_actuator(actuator, design)
-    speeds = [stops_at, *mu]
-    flight = fly(actuator, [FlightLeg(f"µ {speed:g}", speed) for speed in speeds])
+    flight = fly(actuator, [FlightLeg(f"µ {speed:g}", speed) for speed in (stops_at, *mu)])
     heavy = [with_actuator_mass(driven, actuator.installed) for driven in flight.designs]
     return Failure(actuator.installed.actuator.id, stops_at, stopped_designs(heavy[1:], heavy[0], flight.jig))
 

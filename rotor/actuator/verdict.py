@@ -187,7 +187,6 @@ class Verdict:
 
     @property
     def broken(self) -> tuple[Limit, ...]:
-        """Limits that are not met."""
         return tuple(limit for limit in self.limits if not limit.ok)
 
     @property
@@ -235,8 +234,7 @@ def try_actuator(
         raise TypeError("the actuator's name comes first: rotor.actuator.try_actuator('MFC_P1', design)")
     host = HostBlade("new", 0.5) if new_blade else HostBlade()
     pair = ConditionPair(require_design(design), mu, share)
-    placement = default_placement(plies)
-    return judge(find_actuator(name), pair, find_concept(concept), placement, host, against=against)
+    return judge(find_actuator(name), pair, find_concept(concept), default_placement(plies), host, against=against)
 
 
 def judge(
@@ -277,12 +275,7 @@ def judge(
     required = base.segment_changes(installed.placement.divisions)
     heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
     free = [min(two, key=lambda trim: trim.power.total) for two in zip(free, reached.solutions, strict=True)]
-    blades = reached.solutions, near, bare, counted_from, heavy, free
-    known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
-    flown, still, own, other, loaded, ideal = ([known[id(trim)] for trim in trims] for trims in blades)
-    alike = own == other or against == "best-fixed"
-    steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
-    steps |= {"stiffness": (still, own), "mass": (loaded, flown), "ideal": (ideal, still if own == other else other)}
+    doubts = _doubts(pair.shares, against, reached.solutions, near, bare, counted_from, heavy, free)
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, MIN_TWIST))
     return Verdict(
         installed=installed,
@@ -296,11 +289,22 @@ def judge(
         free_power=pair.mean(_totals(free)),
         loaded_powers=_totals(heavy),
         drive=actuator.drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
-        doubt=difference_doubt(pair.shares, loaded, other),
-        parts_doubt={name: difference_doubt(pair.shares, *step) for name, step in steps.items()},
+        doubt=doubts.pop("net"),
+        parts_doubt=doubts,
         limits=limits(installed, asked, reached.solutions[-1]),
         caveats=(*actuator.caveats, *fuel_caveats(aircraft)),
     )
+
+
+def _doubts(shares: Sequence[float], against: Against, *blades: Sequence[Solution]) -> dict[str, Doubt | None]:
+    """How sure the parts of a verdict are, and `net`. blades: trims of the one that is driven, at rest, bare, that
+    savings count from, with the actuator's mass, and free."""
+    known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
+    flown, still, own, other, loaded, ideal = ([known[id(trim)] for trim in trims] for trims in blades)
+    alike = own == other or against == "best-fixed"
+    steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
+    steps |= {"stiffness": (still, own), "mass": (loaded, flown), "ideal": (ideal, still if own == other else other)}
+    return {name: difference_doubt(shares, *step) for name, step in {"net": (loaded, other), **steps}.items()}
 
 
 def _totals(solutions: Sequence[Solution]) -> tuple[float, float]:

@@ -282,8 +282,6 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
 
 
 class _Parts:
-    """Collects lines."""
-
     def __init__(self, azimuths: int) -> None:
         self._azimuths = azimuths
         self._ends, self._core = list[Array](), list[Array]()

@@ -1,12 +1,11 @@
 """The effects that can be switched off to see their cost in power. For teaching: every aircraft has all of them."""
 
 from collections.abc import Collection
-from dataclasses import replace
 
 import numpy as np
 
 from rotor.aero.inflow import inflow_model
-from rotor.design.design import BEYOND_DOCUMENT, Design, Models
+from rotor.design.design import BEYOND_DOCUMENT, Design, Models, with_models
 from rotor.design.quantities import OPTIONS, QUANTITIES, SWITCHES
 from rotor.design.quantity import Quantity
 from rotor.support.user_input import did_you_mean
@@ -19,7 +18,7 @@ def switched_off(models: Models) -> tuple[Quantity, ...]:
 
 def with_switches(design: Design, off: Collection[str]) -> Design:
     """The design with exactly these switches (field names) off and all others on."""
-    return replace(design, models=replace(design.models, **{name: name not in off for name in SWITCHES}))
+    return with_models(design, **{name: name not in off for name in SWITCHES})
 
 
 def parse_switches(text: str) -> tuple[str, ...]:

@@ -119,9 +119,7 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
         )
     largest = float(np.abs(values).max())
     if kind < 2 and largest > _LARGEST:
-        raise ValueError(
-            f"{title}: {('cl', 'cd')[kind]} reaches {largest:g}, more than any section has: check the digits"
-        )
+        raise ValueError(f"{title}: {('cl', 'cd')[kind]} reaches {largest:g}, more than any section: check the digits")
     on_angles = np.all(np.abs(alpha * 2.0 - np.round(alpha * 2.0)) < 1e-9)
     closed = abs(alpha[0] + 180.0) < 1e-9 and abs(alpha[-1] - 180.0) < 1e-9
     if not (on_angles and closed):
@@ -310,10 +308,8 @@ def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns
 def _at(polar: Polar, alpha_deg: Array) -> Columns:
     """A polar at `alpha_deg`: gaps interpolated monotonically, values constant beyond USED_ALPHA_DEG."""
     where = np.clip(alpha_deg, max(polar.alpha_deg[0], -USED_ALPHA_DEG), min(polar.alpha_deg[-1], USED_ALPHA_DEG))
-    cl, log_cd, cm = (
-        np.asarray(scipy.interpolate.PchipInterpolator(polar.alpha_deg, y)(where))
-        for y in (polar.cl, np.log(polar.cd), polar.cm)
-    )
+    columns = polar.cl, np.log(polar.cd), polar.cm
+    cl, log_cd, cm = (np.asarray(scipy.interpolate.PchipInterpolator(polar.alpha_deg, y)(where)) for y in columns)
     # Fully separated, the force stays normal to the chord: its drag grows with tan(alpha).
     beyond = np.deg2rad(np.maximum(np.abs(alpha_deg), USED_ALPHA_DEG))
     return cl, np.exp(log_cd) * np.tan(beyond) / np.tan(np.deg2rad(USED_ALPHA_DEG)), cm

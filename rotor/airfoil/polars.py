@@ -150,9 +150,7 @@ def parse_polars(text: str, name: str) -> PolarSet:
             begin = number
             mach, reynolds = stated[0] if np.isnan(mach) else mach, stated[1] if np.isnan(reynolds) else reynolds
             if 0.0 < reynolds < _LEAST_REYNOLDS:
-                raise ValueError(
-                    f"{name}: Reynolds number {reynolds:g} is not a blade's: give it in full, such as 500000"
-                )
+                raise ValueError(f"{name}: Reynolds number {reynolds:g} is not a blade's: give it in full, as 500000")
             if np.isnan(mach):
                 assumed["names no Mach number: it is taken as incompressible"] = None
             if heading.radians:
@@ -208,9 +206,7 @@ def _stated(name: str, above: list[str], before: tuple[float, float]) -> tuple[f
     """Mach and Reynolds number above a heading, else those of the table `before`. ValueError for a polar at neither."""
     head = " ".join(" ".join(above).split())[-_LONGEST_HEAD:].lower()
     if varied := re.search(r"(reynolds|mach) number ?~", head):
-        raise ValueError(
-            f"{name}: its {varied[1].capitalize()} number changes with lift (XFOIL type 2 or 3): run TYPE 1"
-        )
+        raise ValueError(f"{name}: its {varied[1].capitalize()} number changes with lift (XFOIL type 2, 3): run TYPE 1")
     mach = _value(name, head, rf"\bmach\b\W{{0,12}}(?:number\W{{0,12}})?{STATED}")
     reynolds = _value(name, head, rf"\bre(?:ynolds)?\b\W{{0,12}}(?:number\W{{0,12}})?{STATED}")
     if reynolds is None and (millions := _value(name, head, rf"(?:^| ){STATED} re\b")) is not None:
@@ -266,7 +262,6 @@ def one_row_an_angle(name: str, rows: Sequence[RowOfAngle]) -> list[RowOfAngle]:
         elif any(abs(b - a) > _ALIKE[0] * abs(a) + _ALIKE[1] for a, b in zip(kept[-1][2:], row[2:], strict=True)):
             lines = sorted((int(kept[-1][0]), int(row[0])))
             raise ValueError(
-                f"{name}, line {lines[1]}: {row[1]:g} deg again, with other values than in line {lines[0]}: "
-                "keep one of the two rows"
+                f"{name}, line {lines[1]}: {row[1]:g} deg again, unlike line {lines[0]}: keep one of the two rows"
             )
     return kept

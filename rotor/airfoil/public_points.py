@@ -99,11 +99,8 @@ _ATTACHED_SLOPE = 0.11
 def _shock_stalled(points: list[PublicPoint], point: PublicPoint) -> bool:
     """Whether the points themselves stall before this angle: their lift grew by less than half of its attached rate."""
     step = np.deg2rad(2.0)
-    inner = [
-        p
-        for p in points
-        if p.mach == point.mach and abs(abs(p.alpha) - abs(point.alpha) + step) < 1e-6 and p.alpha * point.alpha >= 0.0
-    ]
+    beside = (p for p in points if p.mach == point.mach and p.alpha * point.alpha >= 0.0)
+    inner = [p for p in beside if abs(abs(p.alpha) - abs(point.alpha) + step) < 1e-6]
     if not inner or abs(point.alpha) < 1.5 * step:
         return False
     return abs(point.cl - inner[0].cl) < 0.5 * _ATTACHED_SLOPE * 2.0

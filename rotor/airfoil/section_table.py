@@ -124,9 +124,8 @@ def held_beyond_peak(coefficients: Array) -> Array:
     place[zero::-1] = zero - _last_record(-lift[zero::-1])
     held = np.take_along_axis(nodes, place[:, :, None, None, None], axis=0)
     at_peak = place == np.arange(N_ALPHA + 1)[:, None]
-    held[~(at_peak & np.roll(at_peak, 1, axis=0) & np.roll(at_peak, -1, axis=0)), :, 1] = (
-        0.0  # Constant from end to end.
-    )
+    # Constant from end to end.
+    held[~(at_peak & np.roll(at_peak, 1, axis=0) & np.roll(at_peak, -1, axis=0)), :, 1] = 0.0
     return np.ascontiguousarray(_cells(held[..., 0, 0], held[..., 1, 0], held[..., 0, 1], held[..., 1, 1]))
 
 
@@ -269,9 +268,8 @@ class SectionTable:
         alpha = sample[np.argmin(nearest, axis=-1)]
         for _ in range(4):
             here = self(alpha, m)
-            step = here.cl / np.where(
-                here.cl_alpha > _LEAST_SLOPE, here.cl_alpha, np.inf
-            )  # The slope is zero at a peak.
+            # The slope is zero at a peak.
+            step = here.cl / np.where(here.cl_alpha > _LEAST_SLOPE, here.cl_alpha, np.inf)
             alpha = np.clip(alpha - np.clip(step, -_ZERO_LIFT, _ZERO_LIFT), -2.0 * _ZERO_LIFT, 2.0 * _ZERO_LIFT)
         return np.asarray(alpha)
 

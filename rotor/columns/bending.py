@@ -188,9 +188,8 @@ class Bending(Freedom):
         assert b is not None
         out: dict[Shape, Array] = {OUTBOARD: b.mass_outboard}
         names = ("W", "W'", "W''", "V", "V'", "V''")
-        for name, slope in zip(
-            names, b.shapes[:, b.first], strict=True
-        ):  # The rigid cone, in place of that of the mode.
+        # The rigid cone, in place of that of the mode.
+        for name, slope in zip(names, b.shapes[:, b.first], strict=True):
             out["precone", name] = (1.0 if name == "W'" else 0.0) - slope
         for k in range(self.modes):
             out["outboard", k] = b.outboard[k]

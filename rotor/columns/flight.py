@@ -183,9 +183,7 @@ def check_freedoms(problem: Problem) -> None:
             taken, (freedom.states, freedom.numbers(problem), freedom.shapes(problem)), strict=True
         ):
             if again := names.intersection(named):
-                raise ValueError(
-                    f"{type(freedom).__name__} repeats the name {min(again, key=str)!r}: choose another name."
-                )
+                raise ValueError(f"{type(freedom).__name__} repeats the name {min(again, key=str)!r}: choose another.")
             names.update(named)
     s = flight_system(problem).structure
     used = {name for shapes in (s.shapes[TH], s.shapes[RATE], *s.weights) for name in shapes}
@@ -298,7 +296,6 @@ def disk_sums(point: Point) -> DiskSums:
 
 
 def elements_of(problem: Problem, point: Point) -> BladeElements:
-    """The blade elements at a point that has the flow at the sections."""
     c, f, s, x = point.channels, point.forces, point.flow, point.x
     terms, torsion, structure = problem.inflow_terms, problem.torsion, point.system.structure
     state, disk, make = state_of(structure, x), problem.disk, point.system.make

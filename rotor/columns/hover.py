@@ -237,12 +237,8 @@ def hover_system(problem: Problem, ct: float | None = None) -> System:
     structure = _structure(0 if torsion is None else len(torsion.gain), trim, tuple(values))
     closed = models.hover_inflow == "closed-form"
     far, none = np.full_like(disk.r, math.inf), np.zeros(0)
-    ends = np.stack(
-        [
-            0.5 * problem.tip_spacing * disk.blades * (1.0 - disk.r) if models.tip_loss else far,
-            0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far,
-        ]
-    )
+    tip = 0.5 * problem.tip_spacing * disk.blades * (1.0 - disk.r) if models.tip_loss else far
+    ends = np.stack([tip, 0.5 * HUB_FACTOR * (disk.r - disk.root) if models.hub_loss else far])
     windmill = is_windmill(problem.weight if ct is None else ct, problem.air.climb)
     thrust = math.copysign(problem.scale, problem.weight) if ct is None else ct
     (slope, zero), gust = lift_curve(problem) if closed else (none, none), problem.air.gust

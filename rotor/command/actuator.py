@@ -27,9 +27,8 @@ from rotor.support.user_input import check_suffix, check_writable, write_whole
 
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "actuator", run)
-    parser.add_argument(
-        "--actuator", metavar="ID", default="MFC_P1", help="actuator (default MFC_P1); --table 5.1 lists all"
-    )
+    words = "actuator (default MFC_P1); --table 5.1 lists all"
+    parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help=words)
     parser.add_argument("--plies", type=int, default=2, metavar="N", help=common.PLIES_HELP)
     parser.add_argument("--concept", default="linear", metavar="NAME", help=f"{common.CONCEPT_HELP} (default linear)")
     parser.add_argument("--division", metavar="R,…", help=common.DIVISION_HELP)
@@ -45,22 +44,12 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--blade", choices=blades, default=blades[0], help="existing blade (default) or a new one")
     parser.add_argument("--span", metavar="A:B", help="active span in r/R (default 0.2433:0.9292)")
     parser.add_argument("--chord", metavar="A:B", help="active chord in x/c (default 0.05:0.80)")
-    parser.add_argument(
-        "--against",
-        choices=("same-blade", "best-fixed"),
-        default="same-blade",
-        help="compare with the same blade without the actuator (default), or with the best fixed twist",
-    )
-    parser.add_argument(
-        "--table", choices=("5.1", "5.2"), help="print table 5.1 (actuators) or 5.2 (net savings) of the thesis instead"
-    )
-    parser.add_argument(
-        "--what-would-pay",
-        nargs="?",
-        choices=("this", "all"),
-        const="this",
-        help="print what an actuator would need to pay on this rotor (all: on each rotor)",
-    )
+    words = "compare with the same blade without the actuator (default), or with the best fixed twist"
+    parser.add_argument("--against", choices=("same-blade", "best-fixed"), default="same-blade", help=words)
+    words = "print table 5.1 (actuators) or 5.2 (net savings) of the thesis instead"
+    parser.add_argument("--table", choices=("5.1", "5.2"), help=words)
+    words = "print what an actuator would need to pay on this rotor (all: on each rotor)"
+    parser.add_argument("--what-would-pay", nargs="?", choices=("this", "all"), const="this", help=words)
     parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: draw the break-even line")
     common.add_design_arguments(parser)
     common.add_output_arguments(parser)

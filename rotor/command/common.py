@@ -60,9 +60,8 @@ def add_design_arguments(
     condition = parser.add_argument_group("flight condition", swept)
     models, stand = parser.add_argument_group("models"), parser.add_argument_group("test stand")
     speeds = condition.add_mutually_exclusive_group() if speed else condition
-    blade.add_argument(
-        "--allow-outside", action="store_true", help="let the rotor file name section files outside its own folder"
-    )
+    words = "let the rotor file name section files outside its own folder"
+    blade.add_argument("--allow-outside", action="store_true", help=words)
     for name, row in (_FLAGS | STAND).items():
         if name in SPEED and not speed and not ranges:
             continue
@@ -163,9 +162,8 @@ def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Ca
 
 
 def add_processes_argument(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument(
-        "--processes", type=int, metavar="N", help="processes to run (default: one per core, at most 4)"
-    )
+    words = "processes to run (default: one per core, at most 4)"
+    parser.add_argument("--processes", type=int, metavar="N", help=words)
 
 
 def processes_from(args: argparse.Namespace) -> int:
@@ -189,44 +187,23 @@ def finite(text: str) -> float:
 def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     """Starting points, seed and limits."""
     search = parser.add_argument_group("search")
-    search.add_argument(
-        "--starts", type=int, default=starts, metavar="N", help=f"starting points per search (default {starts})"
-    )
+    words = f"starting points per search (default {starts})"
+    search.add_argument("--starts", type=int, default=starts, metavar="N", help=words)
     search.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the starting points (default 0)")
     search.add_argument("--on-top", action="store_true", help="add the concept to the design's own twist")
     limits = parser.add_argument_group("limits")
-    limits.add_argument(
-        "--bound",
-        action="append",
-        default=[],
-        metavar="NAME=LOW,HIGH",
-        help="bounds of one parameter in degrees or r/R, e.g. --bound outboard_rate=-20,0; may be repeated",
-    )
-    limits.add_argument(
-        "--rate-deg",
-        metavar="LOW,HIGH",
-        help="twist rate of every segment in degrees per radius, e.g. --rate-deg -20,0",
-    )
-    limits.add_argument(
-        "--stalled-percent", type=finite, metavar="PERCENT", help="largest stalled part of the disk area"
-    )
-    limits.add_argument(
-        "--index-percent",
-        type=finite,
-        metavar="PERCENT",
-        help="largest vibration index at any condition, relative to the weight; needs --bending, from µ 0.2 on",
-    )
-    limits.add_argument(
-        "--change-deg",
-        type=finite,
-        metavar="DEG",
-        help="largest change from the design's own twist, linear from root to tip",
-    )
-    limits.add_argument(
-        "--actuator",
-        metavar="ID",
-        help="allow only the change of twist that this actuator reaches as a retrofit, e.g. MFC_P1",
-    )
+    words = "bounds of one parameter in degrees or r/R, e.g. --bound outboard_rate=-20,0; may be repeated"
+    limits.add_argument("--bound", action="append", default=[], metavar="NAME=LOW,HIGH", help=words)
+    words = "twist rate of every segment in degrees per radius, e.g. --rate-deg -20,0"
+    limits.add_argument("--rate-deg", metavar="LOW,HIGH", help=words)
+    words = "largest stalled part of the disk area"
+    limits.add_argument("--stalled-percent", type=finite, metavar="PERCENT", help=words)
+    words = "largest vibration index at any condition, relative to the weight; needs --bending, from µ 0.2 on"
+    limits.add_argument("--index-percent", type=finite, metavar="PERCENT", help=words)
+    words = "largest change from the design's own twist, linear from root to tip"
+    limits.add_argument("--change-deg", type=finite, metavar="DEG", help=words)
+    words = "allow only the change of twist that this actuator reaches as a retrofit, e.g. MFC_P1"
+    limits.add_argument("--actuator", metavar="ID", help=words)
     limits.add_argument("--plies", type=int, metavar="N", help=PLIES_HELP)
 
 

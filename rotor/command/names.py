@@ -1,14 +1,11 @@
 """The commands, as `assets/commands.toml` lists them. Reading one reads no other."""
 
-import tomllib
 from typing import NamedTuple
 
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 
 
 class Command(NamedTuple):
-    """One command."""
-
     adds: str
     """The function that adds its flags, in its file of this folder."""
     help: str
@@ -16,6 +13,4 @@ class Command(NamedTuple):
     """What each does, and its arguments."""
 
 
-COMMANDS = {
-    name: Command(**row) for name, row in tomllib.loads(asset_path("commands.toml").read_text(encoding="utf-8")).items()
-}
+COMMANDS = {name: Command(**row) for name, row in toml_asset("commands.toml").items()}

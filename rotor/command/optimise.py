@@ -39,19 +39,11 @@ def add_parser(commands: Any) -> None:
         help="what to minimise: total (power, default) | induced (power) | hover-cruise (mean power of hover and the "
         "given speed) | vibration (index of the hub loads)",
     )
-    parser.add_argument(
-        "--hover-share",
-        type=common.finite,
-        metavar="0…1",
-        help="with hover-cruise: fraction of time in hover (default 0.5)",
-    )
+    words = "with hover-cruise: fraction of time in hover (default 0.5)"
+    parser.add_argument("--hover-share", type=common.finite, metavar="0…1", help=words)
     parser.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
-    parser.add_argument(
-        "--no-band",
-        dest="band",
-        action="store_false",
-        help="omit the range of each parameter that costs 0.1 %% of power",
-    )
+    words = "omit the range of each parameter that costs 0.1 %% of power"
+    parser.add_argument("--no-band", dest="band", action="store_false", help=words)
     parser.add_argument("--doubt", action="store_true", help="also search with other models, masses and drag areas")
     common.add_design_arguments(parser, speed=True)
     common.add_search_arguments(parser, STARTS)
@@ -67,9 +59,7 @@ def run(args: argparse.Namespace) -> int:
     objective = _objective(args, design)
     alone = objective == at_condition(design)
     if args.doubt and not alone:
-        raise ValueError(
-            "--doubt needs the least total power of one flight condition: leave --mission and --objective out"
-        )
+        raise ValueError("--doubt needs the least total power of one condition: leave --mission and --objective out")
     limits = common.limits_from(args, design, (concept,))
     search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
     with common.interruptible() as stop, common.bar(None, " designs") as advance:
@@ -143,9 +133,7 @@ def _with_doubt(optimum: Optimum, objective: Objective, start: Design) -> Optimu
 
 def _index_band(objective: Objective, solutions: Sequence[Solution]) -> tuple[float, float] | None:
     """Least and largest mean index of some trims over inflow models [%]."""
-    ends = [
-        loads.band for solution in solutions if (loads := hub_loads(solution)) is not None and loads.band is not None
-    ]
+    ends = [loads.band for each in solutions if (loads := hub_loads(each)) is not None and loads.band is not None]
     if len(ends) < len(solutions):
         return None
     low, high = (sum(share * end[k] for share, end in zip(objective.shares, ends, strict=True)) for k in (0, 1))
@@ -175,10 +163,7 @@ def _words(progress: Progress) -> str:
 
 def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
     """Parameters by label, degrees in labels that end in _deg."""
-    return {
-        parameter.label: round(parameter.shown(value), 6)
-        for parameter, value in zip(concept.parameters, values, strict=True)
-    }
+    return {one.label: round(one.shown(value), 6) for one, value in zip(concept.parameters, values, strict=True)}
 
 
 def record(optimum: Optimum, concept: Concept, beside: _ExtraResults) -> dict[str, Any]:

@@ -16,12 +16,10 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and results.json; created if missing")
     parser.add_argument("--figure", metavar="N", action="append", help="only this figure, e.g. 3.11; may be repeated")
     number = "table {}".format
-    parser.add_argument(
-        "--table", metavar="N", action="append", dest="figure", type=number, help="only this table, e.g. 4.1"
-    )
-    parser.add_argument(
-        "--trust", action="store_true", help="also write the trust page: validation.md, validation/, trust.csv"
-    )
+    words = "only this table, e.g. 4.1"
+    parser.add_argument("--table", metavar="N", action="append", dest="figure", type=number, help=words)
+    words = "also write the trust page: validation.md, validation/, trust.csv"
+    parser.add_argument("--trust", action="store_true", help=words)
     add_processes_argument(parser)
 
 

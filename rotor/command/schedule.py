@@ -24,21 +24,12 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "schedule", run)
-    parser.add_argument(
-        "--concept",
-        nargs="+",
-        default=list(DEFAULT_CONCEPTS),
-        metavar="NAME",
-        help=f"{common.CONCEPT_HELP} | all (default {', '.join(DEFAULT_CONCEPTS)})",
-    )
+    words = f"{common.CONCEPT_HELP} | all (default {', '.join(DEFAULT_CONCEPTS)})"
+    parser.add_argument("--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=words)
     parser.add_argument("--division", metavar="R", help="break of two-segment concepts in r/R (default 0.5)")
     where = parser.add_mutually_exclusive_group()
-    where.add_argument(
-        "--mu",
-        dest="range",
-        metavar="A:B:STEP",
-        help=f"range of advance ratios, equal hours at each (default {DEFAULT_MU})",
-    )
+    words = f"range of advance ratios, equal hours at each (default {DEFAULT_MU})"
+    where.add_argument("--mu", dest="range", metavar="A:B:STEP", help=words)
     where.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
     parser.add_argument("--objective", default="total", choices=POWERS, help="power to minimise (default total)")
     common.add_processes_argument(parser)
@@ -81,9 +72,7 @@ def plan_from(args: argparse.Namespace) -> SchedulePlan:
     else:
         ratios = sorted(set(parse_range(args.range or DEFAULT_MU)))
         conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
-    conditions = tuple(
-        sorted(conditions, key=lambda condition: (condition.flight.advance_ratio, condition.flight.mass))
-    )
+    conditions = tuple(sorted(conditions, key=lambda one: (one.flight.advance_ratio, one.flight.mass)))
     limits = common.limits_from(args, design, concepts)
     for concept in concepts:
         limits.bounds_of(concept)

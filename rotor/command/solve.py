@@ -26,14 +26,10 @@ from rotor.trim.solve import solve
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "solve", run)
     add_design_arguments(parser, speed=True)
-    parser.add_argument(
-        "--row",
-        metavar="DIR:N",
-        help="start from point N of a study's folder or of one of its files; other flags change it",
-    )
-    parser.add_argument(
-        "--carry", metavar="ACTUATOR", help="fly with an actuator on the blades, such as MFC_P1,drive=77 (drive in %%)"
-    )
+    words = "start from point N of a study's folder or of one of its files; other flags change it"
+    parser.add_argument("--row", metavar="DIR:N", help=words)
+    words = "fly with an actuator on the blades, such as MFC_P1,drive=77 (drive in %%)"
+    parser.add_argument("--carry", metavar="ACTUATOR", help=words)
     output = add_output_arguments(parser)
     output.add_argument("--save", type=Path, metavar="FILE", help="write a design file, which the page opens")
     output.add_argument(

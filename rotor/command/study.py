@@ -152,32 +152,19 @@ _TIMED_SEARCHES = 8
 
 
 def add_parser(commands: Any) -> None:
-    parser = add_command(
-        commands,
-        "study",
-        run,
-        "Run a study file. `study show DIR` prints the best point, the robust best design and the sensitivities.",
-    )
-    parser.add_argument(
-        "file", metavar="FILE.toml", help="study file, shipped example (two_segment.toml), or the word show"
-    )
+    words = "Run a study file. `study show DIR` prints the best point, the robust best design and the sensitivities."
+    parser = add_command(commands, "study", run, words)
+    words = "study file, shipped example (two_segment.toml), or the word show"
+    parser.add_argument("file", metavar="FILE.toml", help=words)
     parser.add_argument("folder", metavar="DIR", nargs="?", help="with show: the --out DIR of a study")
-    parser.add_argument(
-        "--scheduler",
-        metavar="tcp://HOST:PORT",
-        help="address of a running Dask cluster, tls://… outside trusted networks (default: the cores of this machine)",
-    )
-    parser.add_argument(
-        "--workers", type=int, metavar="N", help="processes to run on this machine (default: one per core)"
-    )
-    parser.add_argument(
-        "--out",
-        metavar="DIR",
-        help="folder of the results (default: the file's name); an unfinished study in it is resumed",
-    )
-    parser.add_argument(
-        "--dry-run", action="store_true", help="check the file and estimate the time without running it"
-    )
+    words = "address of a running Dask cluster, tls://… outside trusted networks (default: the cores of this machine)"
+    parser.add_argument("--scheduler", metavar="tcp://HOST:PORT", help=words)
+    words = "processes to run on this machine (default: one per core)"
+    parser.add_argument("--workers", type=int, metavar="N", help=words)
+    words = "folder of the results (default: the file's name); an unfinished study in it is resumed"
+    parser.add_argument("--out", metavar="DIR", help=words)
+    words = "check the file and estimate the time without running it"
+    parser.add_argument("--dry-run", action="store_true", help=words)
     parser.add_argument("--least", metavar="COLUMN", help="with show: the column to minimise")
     parser.add_argument("--uncertain", metavar="AXIS,…", help="with show: axes that are uncertain")
     add_output_arguments(parser, "all points (with show)")
@@ -290,10 +277,8 @@ def _summary(store: StudyFolder, ended: ChunkRun, message: str) -> int:
     if results is not None:
         print(report(results, record(results)))
     if ended.stopped and missing:
-        print(
-            f"rotor: stopped with {done:,} of {store.study.count:,} points kept; run the same command to continue",
-            file=sys.stderr,
-        )
+        words = f"rotor: stopped with {done:,} of {store.study.count:,} points kept; run the same command to continue"
+        print(words, file=sys.stderr)
         return STOPPED
     if message := message or ended.sentence:
         print(f"rotor: {message}", file=sys.stderr)

@@ -47,9 +47,7 @@ def run_sweep(args: argparse.Namespace) -> int:
             design.at(**cast(Any, {name: step}))
     base = common.design_from(args, args.relative_to).twist.spec() if args.relative_to else ""
     if base and base not in (known := [design.twist.spec() for design in designs]):
-        raise ValueError(
-            f"--relative-to {base} is not one of the twists of this sweep: use {', '.join(dict.fromkeys(known))}"
-        )
+        raise ValueError(f"--relative-to {base} is no twist of this sweep: use {', '.join(dict.fromkeys(known))}")
     common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
     solutions = SweepTable(tuple(solution for each in tables for solution in each), args.over)
@@ -71,10 +69,8 @@ def sweep_report(solutions: SweepTable, over: str) -> str:
     symbol, size = power_unit(*(solution.last_power.total for solution in solutions))
     columns = [_sweep_column(solutions.columns[k], symbol) for k in kept]
     failures = ("" if one.converged else f"{one.status.value}: {one.message}" for one in solutions)
-    rows = [
-        (*(_in_unit(row[k], solutions.columns[k], size) for k in kept), failure)
-        for row, failure in zip(solutions.rows, failures, strict=True)
-    ]
+    pairs = zip(solutions.rows, failures, strict=True)
+    rows = [(*(_in_unit(row[k], solutions.columns[k], size) for k in kept), failure) for row, failure in pairs]
     sentences: dict[str, str] = {}
     for caveat in (caveat for solution in solutions for caveat in solution.caveats):
         words = re.sub(r"[\d.]+", "", caveat.sentence)
@@ -148,9 +144,8 @@ def add_front(commands: Any) -> None:
     parser = common.add_command(commands, "front", run_front)
     varied = f"vary static twist, not active twist; {common.CONCEPT_HELP}"
     parser.add_argument("--concept", metavar="NAME", help=varied)
-    parser.add_argument(
-        "--harmonics", default="2,3", metavar="N,…", help="harmonics per revolution of the active twist (default 2,3)"
-    )
+    words = "harmonics per revolution of the active twist (default 2,3)"
+    parser.add_argument("--harmonics", default="2,3", metavar="N,…", help=words)
     reach = "largest amplitude of each harmonic (default 1)"
     parser.add_argument("--reach-deg", type=common.finite, default=1.0, metavar="DEG", help=reach)
     parser.add_argument("--points", type=int, default=5, metavar="N", help="points on the trade-off curve (default 5)")
@@ -220,9 +215,7 @@ def front_record(design: Design, front: VibrationFront, rows: list[dict[str, Cel
 
 def _front(front: VibrationFront, found: Table) -> str:
     lines = [front.message, found.text()]
-    if any(
-        point.over_inflows is not None and point.over_inflows[0] * point.over_inflows[1] < 0.0 for point in front.points
-    ):
+    if any(one.over_inflows is not None and one.over_inflows[0] * one.over_inflows[1] < 0.0 for one in front.points):
         lines.append("Where the changes over inflow models differ in sign, no phase is best.")
     if front.preview_error is not None:
         lines.append("largest error of the preview: power {:.2f} %, index {:.1f} %".format(*front.preview_error))
@@ -332,9 +325,7 @@ def _show_point(name: str, mach: float, alpha: float, as_json: bool) -> None:
     """Lift, drag and moment at one Mach number and angle of attack [°] about the section's own chord line."""
     table = load_installed(name).table
     if not 0.0 <= mach <= table.mach_limit:
-        raise ValueError(
-            f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose a value inside"
-        )
+        raise ValueError(f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose one inside")
     if not -180.0 <= alpha <= 180.0:
         raise ValueError(f"--alpha {alpha:g} is outside −180…180 deg: choose a value inside")
     here, moment = table(np.deg2rad(alpha), mach), table.moment(np.deg2rad(alpha), mach)

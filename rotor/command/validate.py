@@ -11,7 +11,7 @@ from rotor.command.common import add_command, add_output_arguments
 from rotor.support.plots import draw_chart, drawing_module
 from rotor.support.table import LEFT, CellValue, Column, table
 from rotor.support.terminal import wrapped
-from rotor.support.user_input import make_folder
+from rotor.support.user_input import check_known, make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
 from rotor.validation.compare import FIELDS, SETS, Comparison, compare, comparison_chart, load_set
 from rotor.validation.flown import POWERS, FlownPower, flown_powers
@@ -28,9 +28,8 @@ _OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "validate", run)
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
-    parser.add_argument(
-        "sets", nargs="*", metavar="SET", help=f"set of points: {measured} (default: all these), {more}"
-    )
+    words = f"set of points: {measured} (default: all these), {more}"
+    parser.add_argument("sets", nargs="*", metavar="SET", help=words)
     parser.add_argument("--inflow", metavar="NAME", help="inflow model (default: that of preset flight)")
     parser.add_argument("--plot", metavar="DIR", help="also draw each set into this folder")
     parser.add_argument("--page", metavar="DIR", help="also write the page of each set, with charts, into this folder")
@@ -47,8 +46,7 @@ def run(args: argparse.Namespace) -> int:
     names = args.sets or [*SETS, *FIELDS]
     known = dict.fromkeys((*SETS, *FIELDS, *TRUST_SETS))
     for name in names:
-        if name not in known:
-            raise ValueError(f"set {name!r} is not known: use one of {', '.join(known)}")
+        check_known("set", name, known)
     chosen = [load_set(name) for name in names if name not in (*_OTHERS, *FIELDS)]
     comparisons: list[Comparison] = []
     for measured in chosen:
@@ -152,13 +150,8 @@ def report(comparison: Comparison) -> str:
         where = (point.given[name] for name in measured.given)
         scatter = measured.scatter_of({**point.given, **point.measured})
         cells.append((*where, point.measured[quantity], scatter, computed, point.error_percent, words))
-    lines = [
-        wrapped(f"{measured.name}: {measured.title}"),
-        wrapped(measured.report),
-        f"inflow {comparison.inflow}; never fitted",
-        table(columns, cells).text(),
-    ]
-    lines.append(wrapped(verdict(comparison)))
+    lines = [wrapped(f"{measured.name}: {measured.title}"), wrapped(measured.report)]
+    lines += [f"inflow {comparison.inflow}; never fitted", table(columns, cells).text(), wrapped(verdict(comparison))]
     if lost := [point for point in comparison.points if point.computed is None]:
         counted = sum(point.judged for point in lost)
         where = f"{counted} of them with a target" if counted else "none of them with a target"

@@ -49,15 +49,11 @@ lags_beside = partial(
 def compile_all() -> None:
     """Compile every kernel of the solver: both presets in flight and hover, blades that bend, stall with lags."""
     with lags_beside():
-        _solve_all()
-
-
-def _solve_all() -> None:
-    for preset in PRESETS:
-        for advance_ratio in (0.2, 0.0):
-            power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
-    for name in (name for name, model in INFLOW_MODELS.items() if not model.pointwise):
-        power_gradient(solve(make_design(mu=0.2, inflow=name)))
-    bent = analyse(make_design(mu=0.2, bending=True))
-    power_gradient(bent)
-    jacobian(bent.adjoint.point)  # As Newton's method needs it far from a solution.
+        for preset in PRESETS:
+            for advance_ratio in (0.2, 0.0):
+                power_gradient(solve(make_design(preset=preset, mu=advance_ratio)))
+        for name in (name for name, model in INFLOW_MODELS.items() if not model.pointwise):
+            power_gradient(solve(make_design(mu=0.2, inflow=name)))
+        bent = analyse(make_design(mu=0.2, bending=True))
+        power_gradient(bent)
+        jacobian(bent.adjoint.point)  # As Newton's method needs it far from a solution.

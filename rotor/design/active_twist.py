@@ -55,9 +55,7 @@ class ActiveTwist:
     def __post_init__(self) -> None:
         check_harmonics(self.harmonics, "active twist")
         if len(self.stations) != len(self.shape) or len(self.stations) < 2:
-            raise ValueError(
-                f"{len(self.stations)} stations but {len(self.shape)} shape values: give two or more pairs"
-            )
+            raise ValueError(f"{len(self.stations)} stations but {len(self.shape)} shape values: give 2 or more pairs")
         if any(low >= high for low, high in pairwise(self.stations)):
             raise ValueError(f"active-twist stations {list(self.stations)} must ascend: sort them")
 
@@ -94,14 +92,11 @@ def check_root_pitch(harmonics: tuple[Harmonic, ...]) -> None:
     for harmonic in harmonics:
         if harmonic.per_rev == 1:
             raise ValueError(
-                f"root pitch at 1/rev is cyclic pitch, which is trimmed: choose 2 to {HIGHEST}/rev, or give the "
-                "cyclic of a test stand"
+                f"root pitch at 1/rev is cyclic pitch, which is trimmed: choose 2 to {HIGHEST}/rev, or a stand's cyclic"
             )
         if harmonic.amplitude > LARGEST_PITCH * (1.0 + 1e-12):
             degrees = math.degrees(harmonic.amplitude)
-            raise ValueError(
-                f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose a value inside"
-            )
+            raise ValueError(f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose one inside")
 
 
 PerRev = str | Sequence["Harmonic | Sequence[float] | Mapping[str, Any]"]
@@ -124,9 +119,7 @@ def read_harmonics(value: PerRev, name: str) -> tuple[Harmonic, ...]:
         raise ValueError(f"{name} is {value!r:.80}: {_FORM}")
     harmonics = tuple(item if isinstance(item, Harmonic) else _harmonic(item, name) for item in items)
     check_harmonics(harmonics, name)
-    return tuple(
-        sorted((harmonic for harmonic in harmonics if harmonic.amplitude), key=lambda harmonic: harmonic.per_rev)
-    )
+    return tuple(sorted((wave for wave in harmonics if wave.amplitude), key=lambda wave: wave.per_rev))
 
 
 def _harmonic(item: Any, name: str) -> Harmonic:
@@ -152,10 +145,7 @@ def _shown(item: Any) -> str:
 
 def harmonics_text(harmonics: tuple[Harmonic, ...]) -> str:
     """`N:DEG:PHASE[,…]`, which `read_harmonics` reads back, to a unit in the last place."""
-    return ",".join(
-        f"{harmonic.per_rev}:{degrees_text(harmonic.amplitude)}:{degrees_text(harmonic.phase)}"
-        for harmonic in harmonics
-    )
+    return ",".join(f"{wave.per_rev}:{degrees_text(wave.amplitude)}:{degrees_text(wave.phase)}" for wave in harmonics)
 
 
 def harmonics_record(harmonics: tuple[Harmonic, ...]) -> list[dict[str, Any]]:

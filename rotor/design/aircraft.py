@@ -75,9 +75,7 @@ class Stand:
                 row.check(row.shown(value))
         if self.flapping != "free" and (self.cyclic_1c or self.cyclic_1s):
             trims = "flapping" if self.flapping == "trimmed" else "hub moments"
-            raise ValueError(
-                f"cyclic is given, but it is needed to trim the {trims}: leave it out, or set flapping to free"
-            )
+            raise ValueError(f"cyclic is given, but needed to trim the {trims}: leave it out, or set flapping to free")
         if self.flapping != "hub-moments" and (self.hub_roll or self.hub_pitch):
             raise ValueError("hub moments are given, but the rotor is not trimmed to them: set flapping to hub-moments")
 
@@ -163,7 +161,6 @@ class FlightCondition:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """The quantities of the condition by name."""
         return {name: getattr(self, row.field) for name, row in CONDITION.items()}
 
     @property

@@ -169,8 +169,7 @@ class Blade:
             raise ValueError(f"root cut-out {self.root_cutout:g} is outside 0…0.9: give it as a fraction of the radius")
         if not (abs(self.tip_sweep) <= 1.05 and 0.3 <= self.tip_sweep_start <= 1.0):
             raise ValueError(
-                f"tip sweep {math.degrees(self.tip_sweep):g}° from {self.tip_sweep_start:g} R: "
-                "give −60…60° from 0.3…1 R"
+                f"tip sweep {math.degrees(self.tip_sweep):g}° from {self.tip_sweep_start:g} R: give ±60° from 0.3…1 R"
             )
         if min(self.flap_inertia, self.mass, *self.chords) <= 0.0:
             raise ValueError("blade chord, mass and flap inertia must be positive: check the rotor file")

@@ -139,9 +139,7 @@ class Models:
         if not 4 <= self.elements <= 1000:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
         if self.panels < 4 or self.line_azimuths < 8:
-            raise ValueError(
-                f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give at least 4 and 8"
-            )
+            raise ValueError(f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more")
         if not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
 
@@ -319,7 +317,6 @@ class Design:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """The numbers of the table by name."""
         return {name: row.of(self) for name, row in quantities.NUMBERS.items()}
 
     @property
@@ -332,6 +329,11 @@ class Design:
         """Harmonics of an active twist that is linear from the root cut-out to the tip; none for any other."""
         active, root = self.active_twist, self.rotor.blade.root_cutout
         return active.harmonics if active and active == linear_active_twist(active.harmonics, root) else ()
+
+    @property
+    def active_waves(self) -> tuple[Harmonic, ...]:
+        """Harmonics of the active twist; none without."""
+        return () if self.active_twist is None else self.active_twist.harmonics
 
     @property
     def pitch_waves(self) -> tuple[ActiveTwist, ...]:
@@ -443,6 +445,11 @@ class Design:
         """ρ A (ΩR)² [N], eq. (2.11)."""
         return self.condition.density * self.rotor.disk_area * self.rotor.tip_speed**2
 
+    @property
+    def thrust_per_metre(self) -> float:
+        """What 1 of a coefficient per r/R, such as `dct`, stands for on one blade [N/m]."""
+        return self.thrust_unit / (self.rotor.blades * self.rotor.radius)
+
     @cached_property
     def power_unit(self) -> float:
         """ρ A (ΩR)³ [W], eq. (2.12)."""
@@ -488,6 +495,11 @@ def _other_change(name: str) -> str:
     if name == "twist":
         return "design.with_twist(…)"
     return f"rotor.make_design(case=design, {name}=…)" if name in quantities.ARGUMENTS and name != "case" else ""
+
+
+def with_models(design: Design, **changes: Any) -> Design:
+    """The design with some of its models changed."""
+    return replace(design, models=replace(design.models, **changes))
 
 
 def with_grid(models: Models, elements: int | None = None, azimuths: int | None = None) -> Models:

@@ -7,7 +7,7 @@ from decimal import Decimal
 from numbers import Real
 from typing import Any, Literal
 
-from rotor.support.user_input import did_you_mean
+from rotor.support.user_input import check_known, did_you_mean
 
 Kind = Literal["number", "whole", "text", "choice", "switch", "object"]
 """`text`: names, a SPEC or harmonics, checked where it is read. `choice`: one of `choices`. `object`: not written out
@@ -193,9 +193,7 @@ class Quantity:
 
     def check_choice(self, value: Any) -> None:
         """ValueError with one sentence for what is none of the choices."""
-        if value not in self.choices:
-            words = self.name.replace("_", " ")
-            raise ValueError(f"{words} {value!r} is not known: use one of {', '.join(self.choices)}")
+        check_known(self.name.replace("_", " "), value, self.choices)
 
     def in_words(self, value: float) -> str:
         """The value with its word: `climb 5 m/s`, `descent 3 m/s`."""

@@ -11,7 +11,6 @@ their text.
 
 import math
 import re
-import tomllib
 from collections.abc import Callable
 from dataclasses import astuple, dataclass, fields
 from functools import cache, lru_cache
@@ -24,7 +23,7 @@ import scipy
 from numpy.typing import ArrayLike
 
 from rotor.support.arrays import Array
-from rotor.support.assets import SHIPPED_ROTORS, asset_path
+from rotor.support.assets import SHIPPED_ROTORS, toml_asset
 from rotor.support.user_input import did_you_mean, read_text, refusing
 
 REFERENCE_RADIUS = 0.75
@@ -371,9 +370,7 @@ def _single_twist(spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable
     if rest and kind in ("builtin", *SHIPPED_ROTORS):
         raise ValueError(f"twist {spec!r} has numbers, which {kind} does not take: write {kind} or {kind}+linear:-2")
     if kind == "builtin":
-        raise ValueError(
-            f"twist {spec!r} needs a rotor: pass it to make_design, or name one of {', '.join(SHIPPED_ROTORS)}"
-        )
+        raise ValueError(f"twist {spec!r} needs a rotor: pass it to make_design, or name {', '.join(SHIPPED_ROTORS)}")
     if kind == "ideal" and not rest:
         if ideal_tip_pitch is None:
             raise ValueError(f"twist {spec!r} needs a rotor and a weight: pass it to make_design, or write ideal:6.4")
@@ -399,7 +396,7 @@ def _single_twist(spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable
 @cache
 def shipped_twist(name: str) -> TwistLaw:
     """The built-in twist of a shipped rotor as it flies, from its file in `assets/`."""
-    given: dict[str, Any] = tomllib.loads(asset_path(f"{name}.toml").read_text(encoding="utf-8"))["main_rotor"]
+    given: dict[str, Any] = toml_asset(f"{name}.toml")["main_rotor"]
     if "linear_twist_deg" in given:
         return LinearTwist(math.radians(given["linear_twist_deg"]))
     return TableTwist(tuple(given["twist_r"]), tuple(math.radians(angle) for angle in given["twist_deg"]), name=name)

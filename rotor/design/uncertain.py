@@ -3,11 +3,10 @@
 What they do to power: `rotor.trim.doubt`.
 """
 
-import tomllib
 from dataclasses import dataclass, replace
 
 from rotor.design.design import Design
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 
 
 @dataclass(frozen=True)
@@ -31,12 +30,7 @@ class Uncertain:
         return max(90.0 if self.unit else 0.1, self.size)
 
 
-def _read() -> tuple[Uncertain, ...]:
-    table = tomllib.loads(asset_path("doubt.toml").read_text(encoding="utf-8"))
-    return tuple(Uncertain(name, row["words"], row["size"], row["source"]) for name, row in table.items())
-
-
-UNCERTAIN = _read()
+UNCERTAIN = tuple(Uncertain(name, **row) for name, row in toml_asset("doubt.toml").items())
 """Uncertain inputs of `assets/doubt.toml`, in its order."""
 
 

@@ -66,9 +66,7 @@ def bending_beam(
     ValueError for a structure without stiffness in flap and lag.
     """
     if not structure.bends:
-        raise ValueError(
-            "the blade structure has no stiffness in bending: give flap_stiffness_nm2 and lag_stiffness_nm2"
-        )
+        raise ValueError("the blade structure has no bending stiffness: give flap_stiffness_nm2 and lag_stiffness_nm2")
     nodes = np.linspace(root, structure.radius, ELEMENTS + 1)
     half = 0.5 * np.diff(nodes)
     r = (nodes[:-1, None] + half[:, None] * (1.0 + _PLACES)).ravel()
@@ -140,10 +138,8 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
     mass, stiffness = np.zeros((size, size)), np.zeros((size, size))
 
     def add(matrix: Array, by_value: Array, by_slope: Array, by_curvature: Array, rows: int, columns: int) -> None:
-        blocks = sum(
-            (beam.weight * factor)[:, None, None] * product
-            for factor, product in ((by_value, value), (by_slope, slope), (by_curvature, curvature))
-        )
+        parts = (by_value, value), (by_slope, slope), (by_curvature, curvature)
+        blocks = sum((beam.weight * factor)[:, None, None] * product for factor, product in parts)
         first = 4 * element[:, None] + np.array([0, 1, 4, 5])
         np.add.at(matrix, ((first + rows)[:, :, None], (first + columns)[:, None, :]), blocks)
 

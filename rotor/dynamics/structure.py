@@ -1,6 +1,5 @@
 """The structure and the materials of the UH-60A blade along its span (`assets/uh60a_structure.toml`)."""
 
-import tomllib
 from dataclasses import dataclass, fields, replace
 from functools import cache
 from typing import Any
@@ -9,7 +8,7 @@ from rotor.design.aircraft import Aircraft
 from rotor.design.blade import BladeStructure, Carried, Rotor
 from rotor.dynamics.thin_wall import Material
 from rotor.dynamics.torsion import AddedStructure, stiffer_blade
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,10 +23,9 @@ class BendingStructure(BladeStructure):
     """GJ [N m²] to which the section model is calibrated."""
 
 
-@cache
 def structure_data() -> dict[str, Any]:
     """The parsed `assets/uh60a_structure.toml`."""
-    return tomllib.loads(asset_path("uh60a_structure.toml").read_text(encoding="utf-8"))
+    return toml_asset("uh60a_structure.toml")
 
 
 KNOWN_BLADE = "uh60a"
@@ -108,10 +106,6 @@ def titanium() -> Material:
 
 def glass() -> Material:
     """E-glass/epoxy, one direction."""
-    return listed_material("glass/epoxy", structure_data()["glass"])
-
-
-def listed_material(name: str, row: dict[str, Any]) -> Material:
-    """A material of one direction as the data files list it."""
+    row = structure_data()["glass"]
     moduli = (1e9 * row["e1_gpa"], 1e9 * row["e2_gpa"], row["nu12"], 1e9 * row["g12_gpa"])
-    return Material(name, *moduli, row["density_kg_m3"])
+    return Material("glass/epoxy", *moduli, row["density_kg_m3"])

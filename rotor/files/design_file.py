@@ -42,11 +42,8 @@ def _declared(row: Quantity) -> Any:
     return Literal[row.choices] if row.kind == "choice" else BY_KIND[row.kind]
 
 
-_Record = msgspec.defstruct(
-    "_Record",
-    [(key, Any if key in _READ_LATER else _declared(BY_KEY[key]), None) for key in (*BY_KEY, *_BESIDE)],
-    bases=(FileTable,),
-)
+_FIELDS = [(key, Any if key in _READ_LATER else _declared(BY_KEY[key]), None) for key in (*BY_KEY, *_BESIDE)]
+_Record = msgspec.defstruct("_Record", _FIELDS, bases=(FileTable,))
 
 
 class _Carried(FileTable, frozen=True, kw_only=True):
@@ -151,9 +148,7 @@ def parse_design(content: bytes, name: str) -> Design:
     with refusing(f"design file {name!r}", "give a JSON design file"):
         record = _record(content, name)
         if "table:" in str(record.get("twist", "")):
-            raise ValueError(
-                f"design file {name!r} refers to a twist table on another machine: write its rows as points:…@…"
-            )
+            raise ValueError(f"design file {name!r} has a twist table of another machine: write its rows as points:…@…")
         return _named(record, name)
 
 

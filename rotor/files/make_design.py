@@ -1,9 +1,7 @@
 """A design from names: preset, aircraft, twist SPEC, models."""
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import replace
-from functools import cache
 from inspect import cleandoc
 from numbers import Integral
 from typing import Any, Unpack
@@ -19,17 +17,11 @@ from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, LOAD_KEYS, OPTIONS
 from rotor.design.quantity import check_names
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
-from rotor.support.assets import SHIPPED_ROTORS, asset_path
-from rotor.support.user_input import did_you_mean
+from rotor.support.assets import SHIPPED_ROTORS
+from rotor.support.user_input import check_known
 
 ADVANCE_RATIO = 0.2
 """Advance ratio of a design whose speed is not given."""
-
-
-@cache
-def uh60a_data() -> dict[str, Any]:
-    """The parsed `assets/uh60a.toml`."""
-    return tomllib.loads(asset_path("uh60a.toml").read_text(encoding="utf-8"))
 
 
 def uh60a_rotor(preset: str) -> Rotor:
@@ -97,26 +89,19 @@ def make_design(
     _check_type(Design, "a design: give what rotor.load_design or make_design returns", case=case)
     _check_type(Models, "rotor.Models", models=models)
     _check_type((Stand, Mapping), "a dictionary of what the test gives, or a Stand", stand=stand)
-    name = preset or (case.preset if case else PRESETS[0])
-    check_preset(name)
     if bending not in (True, False):
         raise TypeError(f"bending is {bending!r:.40}: write bending=True or leave it out")
+    name = preset or (case.preset if case else PRESETS[0])
+    check_preset(name)
     aircraft = _aircraft(rotor, case)
-    same = case if case and name == case.preset else None
-    blade = same if rotor is None else None  # Another rotor, or another preset, has its own blade.
-    if case and blade is None and case.rotor.blade.carried is not None:
-        raise ValueError(
-            f"the blades of the case carry {case.rotor.blade.carried.name}: leave rotor and preset as they are"
-        )
-    own = case.twist if case and rotor is None and case.twist != aircraft.twist_for(case.preset) else None
-    if models is None:
-        models = same.models if same else preset_models(name)
-    models, stand = _test(aircraft, models, trim, stand, case if rotor is None else None)
-    models = replace(models, **{option: True for option in OPTIONS if asked[option]})
-    blades, body = aircraft.rotor_for(name), case if case and rotor is None else aircraft
+    kept, blade = _kept(case, rotor, name)
+    own = kept.twist if kept and kept.twist != aircraft.twist_for(kept.preset) else None
+    models = models or (case.models if case and name == case.preset else preset_models(name))
+    models, stand = _test(aircraft, models, trim, stand, kept)
+    chosen = {"low_speed": low_speed, "loss_on": loss_on, **{option: True for option in OPTIONS if asked[option]}}
+    blades, body = aircraft.rotor_for(name), kept or aircraft
     before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
     overrides = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
-    chosen = {"low_speed": low_speed, "loss_on": loss_on}
     active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
         active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
@@ -161,19 +146,24 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
     if isinstance(rotor, str):
         return find_aircraft(rotor)
     if not isinstance(rotor, Aircraft):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
-        raise TypeError(
-            f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or the path of a rotor file, "mine.toml"'
-        )
+        raise TypeError(f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or a rotor file, "mine.toml"')
     return rotor
+
+
+def _kept(case: Design | None, rotor: Aircraft | str | None, preset: str) -> tuple[Design | None, Design | None]:
+    """The case where its aircraft stays, and where its blade does too: not on another rotor, nor of another preset."""
+    kept = case if rotor is None else None
+    blade = kept if kept and kept.preset == preset else None
+    carried = case.rotor.blade.carried if case and not blade else None
+    if carried is not None:
+        raise ValueError(f"the blades of the case carry {carried.name}: leave rotor and preset as they are")
+    return kept, blade
 
 
 def _changed(models: Models, inflow: str | None, off: str | None, chosen: Mapping[str, str | bool | None]) -> Models:
     """The models with an inflow model by name, choices by field, which they check, and without some effects."""
     if inflow is not None:
-        known = (*INFLOW_MODELS, *HOVER_INFLOWS)
-        if inflow not in known:
-            hint = did_you_mean(inflow, known) or ":"
-            raise ValueError(f"inflow model {inflow!r} is not known{hint} use one of {', '.join(known)}")
+        check_known("inflow model", inflow, (*INFLOW_MODELS, *HOVER_INFLOWS))
         models = replace(models, **{"inflow" if inflow in INFLOW_MODELS else "hover_inflow": inflow})
     models = replace(models, **{field: value for field, value in chosen.items() if value is not None})
     return replace(models, **dict.fromkeys(parse_switches(off), False)) if off else models

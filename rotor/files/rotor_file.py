@@ -185,9 +185,7 @@ def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[O
     structure = _structure(given, at, radius)
     if spring is None and main.hub == "hingeless" and structure is not None and structure.bends:
         says = f"[{'.'.join(map(str, at))}] has no flap_spring_nm_rad"
-        raise Refusal(
-            f"{says}: a hingeless blade with bending stiffness also needs it, for solutions without bending", *at
-        )
+        raise Refusal(f"{says}: a hingeless blade with bending stiffness also needs it, for use without bending", *at)
     stations = given.chord_r or (main.root_cutout_r, 1.0)
     mass, inertia, moment = given.masses(radius - hinge, radius)
     return Blade(
@@ -283,8 +281,7 @@ def load_rotor(path: str | Path, *, allow_outside: bool = False) -> Aircraft:
                 continue
             if not allow_outside and not beside.resolve().is_relative_to(path.parent.resolve()):
                 raise ValueError(
-                    f"{path.name} names {shorten(name)!r}, which is outside its folder: copy it there, "
-                    "or allow it with --allow-outside"
+                    f"{path.name} names {shorten(name)!r}, outside its folder: copy it there, or give --allow-outside"
                 )
             texts[name] = _read(beside)
         return read_aircraft(path.name, texts)

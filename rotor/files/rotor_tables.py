@@ -236,9 +236,7 @@ class AirframeTable(FileTable, frozen=True, kw_only=True):
         if low is None and high is None:
             return None
         if low is None or high is None:
-            raise Refusal(
-                "only one of drag_area_low_m2 and drag_area_high_m2 is given: give both, or neither", "airframe"
-            )
+            raise Refusal("only one of drag_area_low_m2 and drag_area_high_m2: give both, or neither", "airframe")
         given = f"drag_area_low_m2 = {low:g} and drag_area_high_m2 = {high:g}"
         check_bounds(self.drag_area_m2, low, high, "airframe", "drag_area_m2", given=given)
         return low, high
@@ -262,11 +260,8 @@ class ControlsTable(FileTable, frozen=True, kw_only=True):
         return ControlRange(*ends, phase=math.radians(self.phase_deg))
 
 
-DoubtTable = defstruct(
-    "DoubtTable",
-    [(row.name, Annotated[float, Meta(ge=0.0, le=row.largest)], None) for row in UNCERTAIN],
-    bases=(FileTable,),
-)
+_ROWS = [(row.name, Annotated[float, Meta(ge=0.0, le=row.largest)], None) for row in UNCERTAIN]
+DoubtTable = defstruct("DoubtTable", _ROWS, bases=(FileTable,))
 """Sizes of uncertain inputs, by the names of `assets/doubt.toml`."""
 
 

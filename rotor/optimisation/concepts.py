@@ -21,7 +21,7 @@ from rotor.design.twist import (
     spline_basis,
 )
 from rotor.optimisation.concept import Concept, Handle, Parameter, Values, nearest, on_top, restrict
-from rotor.support.user_input import did_you_mean
+from rotor.support.user_input import check_known
 
 __all__ = ("CONCEPTS", "Concept", "Handle", "Parameter", "Values", "find_concept", "nearest", "on_top", "restrict")
 STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
@@ -160,9 +160,7 @@ def find_concept(name: str, division: Sequence[float] | None = None) -> Concept:
     """
     if not isinstance(name, str):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
         raise TypeError(f'concept is {name!r:.40}, not a text: write for example "linear"')
-    if name not in CONCEPTS:
-        hint = did_you_mean(name, CONCEPTS) or ":"
-        raise ValueError(f"concept {name!r} is not known{hint} use one of {', '.join(CONCEPTS)}")
+    check_known("concept", name, CONCEPTS)
     if division is None:
         return CONCEPTS[name]
     match name, *division:

@@ -44,9 +44,7 @@ def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: S
 
     None where one does not trim.
     """
-    here, there = (
-        evaluate_objective(objective, design, starts(design), gradient=False).trims for design in (best, baseline)
-    )
+    here, there = (evaluate_objective(objective, one, starts(one), gradient=False).trims for one in (best, baseline))
     return difference_doubt(objective.shares, here, there, induced=objective.quantity == "induced")
 
 
@@ -94,40 +92,25 @@ def best_twist_doubt(
 
     places = [tuple((x + sign * step).tolist()) for step in np.diag(steps) for sign in (1.0, -1.0)]
     designs = [concept.apply(design, place) for place in places]
-    width = 2.0 * steps[:, None]
-
-    def slopes(values: Array) -> Array:
-        return (values[::2] - values[1::2]) / width
-
-    def gradients(found: Sequence[ObjectiveValue]) -> Array | None:
-        """∇P at every place, (places, parameters); None unless P has a minimum nearby."""
-        rows = [
-            concept.slopes(place, each.trims[0].linear.problem.disk.r) @ each.by_pitch
-            for place, each in zip(places, found, strict=True)
-            if each.by_pitch is not None
-        ]
-        if len(rows) < len(places):
-            return None
-        hessian = slopes(np.array(rows))
-        return np.array(rows) if np.linalg.eigvalsh(hessian + hessian.T).min() > 0.0 else None
-
     found = evaluate_objectives(objective, designs, [starts(each) for each in designs])
-    powers = gradients(found)
+    powers = _gradients(concept, places, steps, found)
     if powers is None:
         return BestTwistDoubt()
-    hessian = slopes(powers)
+    hessian = _slopes(powers, steps)
     hessian = 0.5 * (hessian + hessian.T)
     changes = [mean_changes(objective.shares, each.trims) for each in found]
     names = list(changes[0])
     by_input = np.array([[each[name].sum() for name in names] for each in changes])
-    shifts = _solved(hessian, -slopes(by_input))
+    shifts = _solved(hessian, -_slopes(by_input, steps))
     words = {row.name: row.words for row in uncertain_inputs(design)}
     others = [with_other_inflow(each) for each in designs]
     flies = not all(solution.design.hovering for solution in found[0].solutions)
-    there = gradients(evaluate_objectives(objective, others, [()] * len(others))) if flies else None
+    there = None
+    if flies:
+        there = _gradients(concept, places, steps, evaluate_objectives(objective, others, [()] * len(others)))
     below = above = np.square(shifts).sum(axis=1)
     if there is not None:
-        aside = _solved(slopes(there), -there.mean(axis=0))
+        aside = _solved(_slopes(there, steps), -there.mean(axis=0))
         below, above = below + np.square(np.minimum(aside, 0.0)), above + np.square(np.maximum(aside, 0.0))
         shifts = np.column_stack((shifts, aside))
         names.append(f"inflow {others[0].models.inflow}")
@@ -144,6 +127,26 @@ def best_twist_doubt(
         )
     )
     return BestTwistDoubt(bands, 0.5 * float(np.sum(shifts * (hessian @ shifts))))
+
+
+def _slopes(values: Array, steps: Array) -> Array:
+    """Slopes by each parameter of values at pairs of places, a step up and a step down, (parameters, …)."""
+    return (values[::2] - values[1::2]) / (2.0 * steps[:, None])
+
+
+def _gradients(
+    concept: Concept, places: Sequence[tuple[float, ...]], steps: Array, found: Sequence[ObjectiveValue]
+) -> Array | None:
+    """∇P at every place, (places, parameters); None unless P has a minimum nearby."""
+    rows = [
+        concept.slopes(place, each.trims[0].linear.problem.disk.r) @ each.by_pitch
+        for place, each in zip(places, found, strict=True)
+        if each.by_pitch is not None
+    ]
+    if len(rows) < len(places):
+        return None
+    hessian = _slopes(np.array(rows), steps)
+    return np.array(rows) if np.linalg.eigvalsh(hessian + hessian.T).min() > 0.0 else None
 
 
 def _solved(matrix: Array, right: Array) -> Array:

@@ -16,7 +16,7 @@ from rotor.design.quantities import CONDITION
 from rotor.design.quantity import number
 from rotor.optimisation.limits import PERCENT, Limits, stalled_share
 from rotor.support.arrays import Array
-from rotor.support.user_input import read_text, refusing
+from rotor.support.user_input import check_known, read_text, refusing
 from rotor.trim.adjoint import Objective as PowerKind
 from rotor.trim.adjoint import power_along
 from rotor.trim.analysis import Analysis
@@ -54,8 +54,7 @@ class Objective:
     conditions: tuple[WeightedCondition, ...]
 
     def __post_init__(self) -> None:
-        if self.quantity not in QUANTITIES:
-            raise ValueError(f"objective {self.quantity!r} is not known: use {', '.join(QUANTITIES)}")
+        check_known("objective", self.quantity, QUANTITIES)
         if not self.conditions:
             raise ValueError("an objective needs a flight condition: give at least one")
 
@@ -94,9 +93,7 @@ def over_conditions(
         where, weight = pair
         if isinstance(where, Design):
             if where.rotor.at_speed(100.0).tip_speed != design.rotor.at_speed(100.0).tip_speed:
-                raise ValueError(
-                    f"a condition is of {where.rotor.name}, the design of {design.rotor.name}: use one rotor"
-                )
+                raise ValueError(f"a condition has {where.rotor.name}, the design {design.rotor.name}: use one rotor")
             flight = where.condition
         else:
             flight = design.at(mu=where).condition
@@ -119,8 +116,6 @@ def hover_and_cruise(
 
 @dataclass(frozen=True, eq=False)
 class ObjectiveValue:
-    """An objective evaluated for a design."""
-
     power: float | None
     """Mean power [W], the total for the objective `vibration`; None when a condition did not trim."""
     trims: tuple[Analysis, ...]
@@ -138,7 +133,6 @@ class ObjectiveValue:
 
     @property
     def solutions(self) -> tuple[Solution, ...]:
-        """Those of `trims`."""
         return tuple(trim.solution for trim in self.trims)
 
     @property
@@ -266,9 +260,7 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
         )
     if len(rows) < 2:
         raise ValueError(f"mission {str(path)!r} has no flight conditions: add a line with a number for each column")
-    return tuple(
-        _condition(path, number, dict(zip(heading, cells, strict=False)), design) for number, cells in rows[1:]
-    )
+    return tuple(_condition(path, line, dict(zip(heading, cells, strict=False)), design) for line, cells in rows[1:])
 
 
 def _condition(path: Path, line: int, cells: dict[str, str], design: Design) -> WeightedCondition:

@@ -45,9 +45,7 @@ class SchedulePlan:
         if not self.conditions or not self.concepts:
             raise ValueError("a schedule needs a flight condition and a concept: give at least one of each")
         if self.quantity == "vibration":
-            raise ValueError(
-                "a schedule compares powers: use the objective total or induced, with a limit on the index"
-            )
+            raise ValueError("a schedule compares powers: use objective total or induced, with a limit on the index")
         check_index(self.design, Objective(self.quantity, self.conditions), self.limits)
 
     def design_at(self, condition: int | None) -> Design:
@@ -98,9 +96,7 @@ class Schedule:
 
     def at(self, condition: int | None, concept: str) -> Optimum | None:
         """The optimum of a concept at a condition; None: the fixed blade."""
-        return next(
-            (cell.optimum for cell in self.cells if (cell.condition, cell.concept) == (condition, concept)), None
-        )
+        return next((one.optimum for one in self.cells if (one.condition, one.concept) == (condition, concept)), None)
 
     @property
     def complete(self) -> bool:

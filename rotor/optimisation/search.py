@@ -138,7 +138,6 @@ class _Run:
 
     @property
     def best(self) -> Evaluation | None:
-        """The best end of a descent."""
         return min((end for end, _ in self.groups), key=lambda end: end.cost, default=None)
 
     def descend_from(self, start: int, x: Array) -> None:
@@ -290,10 +289,9 @@ def _starts(search: Search, evaluate: Evaluator) -> Sequence[Array]:
 
 def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> Minimum:
     values = evaluate.values(record.x)
-    active: list[str] = []
-    for parameter, x in zip(evaluate.concept.parameters, record.x, strict=True):
-        if x < 1e-4 or x > 1.0 - 1e-4:
-            active.append(f"{parameter.name} {'low' if x < 0.5 else 'high'}")
+    names = (parameter.name for parameter in evaluate.concept.parameters)
+    at = zip(names, record.x, strict=True)
+    active = [f"{name} {'low' if x < 0.5 else 'high'}" for name, x in at if x < 1e-4 or x > 1.0 - 1e-4]
     limits = evaluate.limits
     tight = record.margins < 10.0 * FEASIBLE
     rates = 2 * len(evaluate.concept.rate_rows) if limits.rate is not None else 0
@@ -393,11 +391,8 @@ def best_linear_twist(design: Design) -> BestTwist:
     result = run_search(Search(design, concept, starts=1))
     if result.best is None:
         raise ValueError(result.message)
-    ranges = [
-        TwistRange(cause, (band[0].low, band[0].high))
-        for cause, band in (("flat", result.band), ("doubt", result.doubt_band))
-        if band
-    ]
+    bands = ("flat", result.band), ("doubt", result.doubt_band)
+    ranges = [TwistRange(cause, (band[0].low, band[0].high)) for cause, band in bands if band]
 
     def rate(other: Design) -> float:
         best = run_search(Search(other, concept, guesses=(result.best.parameters,), starts=1, band=False)).best  # type: ignore[union-attr]

@@ -192,9 +192,8 @@ class StudyFolder:
             if known is not None:
                 self._check(known, provenance)
             self._lock = _hold(self.folder)
-            write_whole(
-                self.folder / ABOUT, _about(file.study, provenance, known)
-            )  # Written first: a folder without it is not a study.
+            # Written first: a folder without it is not a study.
+            write_whole(self.folder / ABOUT, _about(file.study, provenance, known))
             write_whole(self.folder / SOURCE, file.text)
             for left in self.folder.glob(".*.part"):  # Left by a run that was killed while writing.
                 left.unlink()

@@ -21,9 +21,7 @@ class ExecutorLost(RuntimeError):
     """The executor takes no more work; finished chunks are kept."""
 
     def __init__(self, reason: object) -> None:
-        super().__init__(
-            f"the workers are gone ({reason}): finished chunks are kept; run the same study again to continue"
-        )
+        super().__init__(f"the workers are gone ({reason}): finished chunks are kept; run the study again to continue")
 
 
 @contextmanager
@@ -82,7 +80,6 @@ class ClusterWatch:
             raise ExecutorLost(missing)
 
     def came(self) -> None:
-        """A chunk came from a worker."""
         self._had, self._since = True, None
 
     def _missing(self) -> str:

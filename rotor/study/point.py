@@ -258,8 +258,7 @@ def _bladed(design: Design, values: Values) -> Design:
     missing = [parameter.label for parameter in concept.parameters if parameter.name not in held]
     if missing:
         raise ValueError(
-            f"the concept {concept.name} needs a value of {missing[0]}: add it to [axes] or [fixed], "
-            "or add [optimum] to search for it"
+            f"concept {concept.name} needs {missing[0]}: add it to [axes] or [fixed], or add [optimum] to search for it"
         )
     return concept.apply(design, [held[parameter.name] for parameter in concept.parameters])
 
@@ -278,10 +277,8 @@ def _search(design: Design, values: Values, searching: OptimumSettings, warm: Wa
         else hover_and_cruise(design, float(share), design.condition.advance_ratio, searching.objective)
     )
     near = warm.optimum if warm.concept == _name(concept) else ()
-    limits, guesses = (
-        Limits(rate=searching.rate, stalled=searching.stalled, index=searching.index),
-        (near,) if near else (),
-    )
+    limits = Limits(rate=searching.rate, stalled=searching.stalled, index=searching.index)
+    guesses = (near,) if near else ()
     return Search(design, concept, objective, limits, searching.starts, searching.seed, guesses, band=False)
 
 

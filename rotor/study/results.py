@@ -38,7 +38,6 @@ class Results:
 
     @property
     def rows(self) -> int:
-        """Number of rows."""
         return len(self.columns["point"])
 
     @property
@@ -61,7 +60,6 @@ class Results:
         return str(self.about.get("units", {}).get(column, ""))
 
     def numeric(self, column: str) -> bool:
-        """Whether a column holds numbers."""
         return self.columns[column].dtype == np.float64
 
     @property
@@ -96,8 +94,7 @@ def read_results(folder: str | Path) -> Results:
             raise
         except (OSError, ValueError, arrow.ArrowException) as error:
             raise ValueError(
-                f"{path.name} of {str(folder)!r} is damaged ({shorten(str(error))}): run the study again, which "
-                "computes its points again"
+                f"{path.name} of {str(folder)!r} is damaged ({shorten(str(error))}): run the study again for its points"
             ) from None
         if tables[-1].schema != tables[0].schema:
             raise ValueError(f"{path.name} of {str(folder)!r} is of another study: move it elsewhere")
@@ -129,9 +126,7 @@ def read_file(path: str | Path) -> Results:
     except MemoryError:  # pyarrow's ArrowMemoryError is one, too.
         raise
     except (OSError, KeyError, ValueError, arrow.ArrowException):
-        raise ValueError(
-            f"{Path(path).name!r} is not a result of a study: give a chunk-….parquet of its folder"
-        ) from None
+        raise ValueError(f"{Path(path).name!r} is no result of a study: give a chunk-….parquet of its folder") from None
     return results
 
 
@@ -158,11 +153,8 @@ def design_of_row(results: Results, row: int) -> Design:
     given: dict[str, Any] = results.about.get("given", {})
     values: dict[str, Value] = {name: value for name, value in given.items() if name in PLAIN}
     values |= {name: results.columns[name][row] for name in results.axes if name in PLAIN}
-    blade = {
-        name: float(results.columns[name][row])
-        for name in results.columns
-        if name in QUANTITIES and name not in PLAIN and math.isfinite(results.columns[name][row])
-    }
+    varied = {name: column[row] for name, column in results.columns.items() if name in QUANTITIES and name not in PLAIN}
+    blade = {name: float(value) for name, value in varied.items() if math.isfinite(value)}
     design = design_of({name: value for name, value in values.items() if name != "concept"}, {})
     if "concept" not in values:
         return design

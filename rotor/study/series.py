@@ -265,10 +265,8 @@ def schedule(
     times = [1.0] * len(speeds) if hours is None else list(hours)
     if len(times) != len(speeds):
         raise ValueError(f"{len(times)} hours for {len(speeds)} advance ratios: give one for each")
-    flights = [
-        WeightedCondition(design.at(mu=speed).condition, time)
-        for speed, time in sorted(zip(speeds, times, strict=True))
-    ]
+    weighted = sorted(zip(speeds, times, strict=True))
+    flights = [WeightedCondition(design.at(mu=speed).condition, time) for speed, time in weighted]
     blades = tuple(find_concept(name) for name in concepts)
     plan = SchedulePlan(design, blades, tuple(flights), quantity, limits or Limits(), starts, seed)
     return run_plan(plan, processes=processes)
@@ -307,14 +305,10 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
 
 def _change_chart(table: SweepTable) -> Chart:
     at = _values(table.solutions, table.axis)
-    rows = [
-        (label, place, math.nan if change is None else change)
-        for label, place, change in zip(table.labels, at, table.changes, strict=True)
-    ]
+    points = zip(table.labels, at, table.changes, strict=True)
+    rows = [(label, place, math.nan if change is None else change) for label, place, change in points]
     lines = tuple(
-        Line(
-            name, [x for label, x, _ in rows if label == name], [y for label, _, y in rows if label == name], dots=True
-        )
+        Line(name, [x for one, x, _ in rows if one == name], [y for one, _, y in rows if one == name], dots=True)
         for name in dict.fromkeys(table.labels)
     )
     return Chart("", Axis(table.axis.axis_title), Axis(f"Power relative to {table.reference} [%]"), lines)
@@ -360,10 +354,12 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
     """A row of a sweep by column; what is left out has no value."""
     design, power = solution.design, solution.last_power
     reason = why_no_hub_loads(design) if design.models.bending else None
+    root = design.rotor.blade.root_cutout
+    ends = design.twist([root, 1.0])  # Their difference over the radius between is the rate of a linear twist.
     return {
         "rotor": design.rotor.name,
         "twist": design.twist.spec(),
-        "twist_deg_per_r": _mean_rate(design),
+        "twist_deg_per_r": round(math.degrees(ends[1] - ends[0]) / (1.0 - root), 9),
         "pitch_per_rev": harmonics_text(design.pitch_per_rev),
         "twist_per_rev": harmonics_text(design.linear_active_twist),
         "speed_kt": design.airspeed / KNOT,
@@ -374,13 +370,6 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
         "message": solution.message if reason is None else f"{solution.message} {reason.sentence}",
         **(dict(zip(VIBRATION, _vibration(solution), strict=True)) if VIBRATION[0] in columns else {}),
     }
-
-
-def _mean_rate(design: Design) -> float:
-    """Twist of the tip less that of the blade's root over the radius between them [°/R]: the rate of a linear twist."""
-    root = design.rotor.blade.root_cutout
-    ends = design.twist([root, 1.0])
-    return round(math.degrees(ends[1] - ends[0]) / (1.0 - root), 9)
 
 
 def _vibration(solution: Solution) -> tuple[float | None, ...]:

@@ -163,11 +163,8 @@ class Reader:
     def _check_known(self, section: str, key: str) -> None:
         quantity = QUANTITIES.get(key)
         if quantity is None:
-            names = [
-                name
-                for name, row in QUANTITIES.items()
-                if (row.kind != "switch" if section == "axes" else row.section == section)
-            ]
+            axes, rows = section == "axes", QUANTITIES.items()
+            names = [name for name, row in rows if (row.kind != "switch" if axes else row.section == section)]
             says = f"{key!r} is not a quantity of [{section}]{did_you_mean(key, names) or ':'}"
             raise Refusal(f"{says} use one of {', '.join(names)}", section, key)
         if section == "axes" and quantity.kind == "switch":
@@ -247,8 +244,6 @@ class Reader:
 
 @dataclass(frozen=True)
 class StudyFile:
-    """A study and the text it was read from."""
-
     study: Study
     text: str
     path: str

@@ -5,9 +5,11 @@ Data files are in `assets/` of the checkout, or its copy in an installed wheel.
 
 import csv
 import subprocess
+import tomllib
 from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
+from typing import Any
 
 SHIPPED_ROTORS = ("uh60a", "r22", "s61", "gazelle", "bo105")
 """Names of the shipped rotors, each in `assets/<name>.toml`. The first is the default."""
@@ -32,6 +34,12 @@ def asset_path(name: str) -> Path:
         if path.exists():
             return path
     raise FileNotFoundError(f"data file {name!r} is in neither {_PACKAGED} nor {_CHECKOUT}: reinstall rotor-explorer")
+
+
+@cache
+def toml_asset(name: str) -> dict[str, Any]:
+    """The tables of a TOML file in `assets/`, read once and shared: not to be changed."""
+    return tomllib.loads(asset_path(name).read_text(encoding="utf-8"))
 
 
 def csv_rows(path: Path) -> list[dict[str, str]]:

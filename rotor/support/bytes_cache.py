@@ -117,7 +117,6 @@ class _Kept:
             self.drop(next(iter(self._results)))
 
     def _count(self, result: _Result, sign: int) -> None:
-        """Count a result, or no longer."""
         self.bytes += sign * result.rest
         for place, (_, size) in result.buffers.items():
             others = self._holders[place] if sign > 0 else self._holders[place] - 1
@@ -131,7 +130,6 @@ _kept = _Kept()
 
 
 def bytes_kept() -> int:
-    """Bytes of all results that are kept."""
     return _kept.bytes
 
 

@@ -179,7 +179,6 @@ class Chart:
         return [(value, tick_text(value, scale.log) + scale.unit) for value in places]
 
     def colours(self) -> list[str]:
-        """Colour of each series."""
         colours, turn = list[str](), 0
         for series in self.series:
             turn += series.colour is None
@@ -271,13 +270,9 @@ class DrawnChart(Struct, frozen=True, omit_defaults=True):
 
 def drawn_chart(chart: Chart) -> DrawnChart:
     """The chart with its ticks, the ends of its axes and its colours."""
-    digits = {
-        axis: max(0, 4 - math.floor(math.log10(abs(end - start) or 1.0)))
-        for axis, (start, end) in (("x", chart.span("x")), ("y", chart.span("y")))
-    }
-    series = [
-        _drawn_series(series, colour, digits) for series, colour in zip(chart.series, chart.colours(), strict=True)
-    ]
+    spans = ("x", chart.span("x")), ("y", chart.span("y"))
+    digits = {axis: max(0, 4 - math.floor(math.log10(abs(end - start) or 1.0))) for axis, (start, end) in spans}
+    series = [_drawn_series(one, colour, digits) for one, colour in zip(chart.series, chart.colours(), strict=True)]
     x, y = _drawn_axis(chart, "x", 5), _drawn_axis(chart, "y", 4 if chart.y.whole is None else 2)
     return DrawnChart(chart.title, x, y, series, chart.value, chart.note, chart.rules)
 

@@ -123,9 +123,7 @@ def _drawn(axes: _Axes, series: Series, colour: str, size: float = 1.0, thick: f
     """A series; `size` of its marks and `thick` of its lines beside what they are in a large drawing."""
     if isinstance(series, Band):
         named = bool(axes.chart.y.names)
-        low, high = (
-            axes.places(*((edge, series.x) if named else (series.x, edge))) for edge in (series.low, series.high)
-        )
+        low, high = (axes.places(*((y, series.x) if named else (series.x, y))) for y in (series.low, series.high))
         if len(low) == 1:  # A band of one point has no area.
             return tag("path", d=_path([*low, *high]), stroke=colour, stroke_width=5, stroke_opacity=0.3)
         known = [pair for pair in zip(low, high, strict=True) if all(map(math.isfinite, (*pair[0], *pair[1])))]

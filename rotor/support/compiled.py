@@ -203,7 +203,6 @@ def compiling() -> str:
 
 
 def has_compiled() -> bool:
-    """Whether this process has compiled anything."""
     return _watch.began
 
 

@@ -85,8 +85,6 @@ class JobStarted:
 
 @dataclass(frozen=True)
 class JobProgress:
-    """What the task reported."""
-
     item: Any
 
 
@@ -260,9 +258,7 @@ class Processes(Executor):
     def next(self, worker: "_Worker") -> Job | None:
         """The next job of an idle thread; None when none came in time, or ever will."""
         with self._change:
-            self._change.wait_for(
-                lambda: self._waiting or self._closed, _IDLE_CHECK_S if self.prepare is not None else None
-            )
+            self._change.wait_for(lambda: self._waiting or self._closed, _IDLE_CHECK_S if self.prepare else None)
             job = self._waiting.pop(0) if self._waiting else None
             worker.idle = job is None
         if job is not None:

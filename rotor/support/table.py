@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from rotor.support.markup import Markup, tag
 from rotor.support.terminal import wrapped
-from rotor.support.user_input import csv_text, write_whole
+from rotor.support.user_input import csv_text, write_output
 
 CellValue = str | float | None
 """A text or a number; None where there is no value."""
@@ -50,14 +50,12 @@ class Table:
         return "\n".join(lines)
 
     def html(self) -> Markup:
-        """The table for a notebook."""
         shown = [(k, column) for k, column in enumerate(self.columns) if column.head is not None]
         heads = tag("tr", [tag("th", column.head) for _, column in shown])
         rows = (tag("tr", [tag("td", _formatted(row[k], _number(column))) for k, column in shown]) for row in self.rows)
         return tag("table", tag("thead", heads), tag("tbody", rows))
 
     def csv(self) -> str:
-        """The table as CSV text."""
         kept = [(k, column) for k, column in enumerate(self.columns) if column.key]
         rows = ([_formatted(row[k], column.stored) for k, column in kept] for row in self.rows)
         return csv_text([[column.key for _, column in kept], *rows])
@@ -70,14 +68,10 @@ class Table:
         if path == "-":
             print(self.csv(), end="")
             return
-        try:
-            write_whole(path, self.csv())
-        except OSError as error:
-            raise ValueError(f"cannot write {path!r} ({error.strerror}): give a writable file") from None
+        write_output(path, self.csv())
 
 
 def table(columns: Iterable[Column], rows: Iterable[Iterable[CellValue]]) -> Table:
-    """A table of rows."""
     return Table(tuple(columns), tuple(map(tuple, rows)))
 
 

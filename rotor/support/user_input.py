@@ -12,7 +12,7 @@ import os
 import re
 import stat
 import tempfile
-from collections.abc import Generator, Iterable
+from collections.abc import Collection, Generator, Iterable
 from concurrent.futures import BrokenExecutor
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -68,6 +68,13 @@ def did_you_mean(name: object, known: Iterable[str]) -> str:
     plain = {_plain(one): one for one in known}
     close = difflib.get_close_matches(_plain(name), list(plain), n=1)
     return f"; did you mean {plain[close[0]]!r}?" if close else ""
+
+
+def check_known(what: str, name: object, known: Collection[str]) -> None:
+    """ValueError for a name that is none of those known, with the nearest of them and all."""
+    if name not in known:
+        hint = did_you_mean(name, known) or ":"
+        raise ValueError(f"{what} {name!r} is not known{hint} use one of {', '.join(known)}")
 
 
 def _plain(name: object) -> str:
@@ -227,6 +234,14 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
         with suppress(OSError):
             Path(part).unlink()
         raise
+
+
+def write_output(path: str | Path, content: str | bytes) -> None:
+    """`write_whole`, for a file that the user named: ValueError with one sentence where it cannot be written."""
+    try:
+        write_whole(path, content)
+    except OSError as error:
+        raise ValueError(f"cannot write {str(path)!r} ({error.strerror}): give a writable file") from None
 
 
 def csv_text(rows: Iterable[Iterable[object]], heading: str = "") -> str:

@@ -170,7 +170,7 @@ class _Linear:
         return by_pitch - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
 
     @one_blas_thread()
-    def _by_iteration(self, slopes: Array, tolerance: float = KRYLOV_TOLERANCE) -> Array:
+    def _by_iteration(self, slopes: Array, tolerance: float) -> Array:
         """J⁻ᵀ times slopes, from factors nearby; from those made here where these are too far; else directly."""
         kept = self._box
         if kept.factors is not None and kept.factors.usable and (kept.at_trim or not self._far):

@@ -69,8 +69,7 @@ def distribution(solution: Solution) -> Distribution:
     Raises RuntimeError when the solution did not converge, TypeError for anything but a solution.
     """
     design, disk = require_solution(solution).design, solution.require().disk
-    rotor = design.rotor
-    lift, inflow = disk.dct * (design.thrust_unit / (rotor.blades * rotor.radius)), disk.induced * rotor.tip_speed
+    lift, inflow = disk.dct * design.thrust_per_metre, disk.induced * design.rotor.tip_speed
     return Distribution(disk.r, disk.psi, lift, disk.cl, _moments(design, disk), disk.mach, disk.alpha, inflow)
 
 

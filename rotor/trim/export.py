@@ -14,7 +14,7 @@ from rotor.design.quantities import UNUSUAL
 from rotor.support.arrays import Array
 from rotor.support.assets import package_version
 from rotor.support.plots import new_axes
-from rotor.support.user_input import check_suffix, write_whole
+from rotor.support.user_input import check_known, check_suffix, write_whole
 from rotor.trim.solution import ElasticTwist, Solution, require_solution
 
 SCHEMA = "rotor-explorer solution 1"
@@ -116,8 +116,7 @@ def plot_field(solution: Solution, field: str = "alpha", ax: Any = None) -> Any:
 
     Raises ValueError for a field that does not exist, and RuntimeError when the solution did not converge.
     """
-    if field not in DISK_LABELS:
-        raise ValueError(f"field {field!r} is not known: use one of {', '.join(DISK_LABELS)}")
+    check_known("field", field, DISK_LABELS)
     disk = require_solution(solution).require().disk
     label, scale = DISK_LABELS[field]
     values: Array | None = getattr(disk, field)
@@ -165,6 +164,4 @@ def _switches(solution: Solution) -> dict[str, Any]:
 
 def _emptied(values: dict[str, Any]) -> dict[str, Any]:
     """Keys of a record without their values."""
-    return {
-        key: _emptied(cast(dict[str, Any], value)) if isinstance(value, dict) else None for key, value in values.items()
-    }
+    return {key: _emptied(cast(dict[str, Any], one)) if isinstance(one, dict) else None for key, one in values.items()}

@@ -19,7 +19,7 @@ import numpy as np
 
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.columns.bending import LOADS, hub_load_terms
-from rotor.design.design import Design
+from rotor.design.design import Design, with_models
 from rotor.engine.terms import Terms
 from rotor.support.arrays import Array
 from rotor.trim.adjoint import Adjoint
@@ -97,7 +97,7 @@ def hub_loads(given: Solution | Analysis, *, solve: Solve | None = None, band: b
     if why_no_hub_loads(design) is not None:
         return None
     if not design.models.bending:
-        design = replace(design, models=replace(design.models, bending=True))
+        design = with_models(design, bending=True)
         trim = solve(design, replace(trim.solution.start, box=None))
         if not trim.solution.converged:
             return None
@@ -118,7 +118,7 @@ def band_inflows() -> tuple[str, ...]:
 def band_designs(design: Design) -> tuple[Design, ...]:
     """A design whose blades bend with each other inflow model over which its index is stated."""
     others = (name for name in band_inflows() if name != design.models.inflow)
-    return tuple(replace(design, models=replace(design.models, inflow=name)) for name in others)
+    return tuple(with_models(design, inflow=name) for name in others)
 
 
 def _indices(design: Design, solve: Solve) -> dict[str, float]:

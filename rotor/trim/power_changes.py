@@ -20,7 +20,6 @@ from rotor.aero.problem import Problem, build_problem
 from rotor.aero.section import EARLIER_RISE, MORE_LIFT, MORE_MOMENT, SCATTER
 from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
-from rotor.design.design import Design
 from rotor.design.quantity import replaced
 from rotor.design.uncertain import uncertain_inputs
 from rotor.engine.linearise import evaluate, with_data
@@ -135,13 +134,6 @@ def _section(row: int, unit: float = 1.0) -> Change:
     return change
 
 
-def _rebuilt(problem: Problem, design: Design) -> Problem:
-    """The problem of a design nearby, on the same course of the wake."""
-    built = build_problem(design)
-    air = replace(built.air, joined=problem.air.joined)
-    return replace(built, course=problem.course, air=air, freedoms=problem.freedoms)
-
-
 def _larger(place: str, counts: Callable[[Problem], bool]) -> Change:
     """place: fields that lead to the number, or the numbers, from a design."""
 
@@ -151,7 +143,9 @@ def _larger(place: str, counts: Callable[[Problem], bool]) -> Change:
             return None
         factor = 1.0 + 0.01 * amount
         larger = tuple(factor * each for each in value) if isinstance(value, tuple) else factor * value
-        return _rebuilt(problem, replaced(problem.design, place.split("."), larger))
+        built = build_problem(replaced(problem.design, place.split("."), larger))
+        air = replace(built.air, joined=problem.air.joined)
+        return replace(built, course=problem.course, air=air, freedoms=problem.freedoms)
 
     return change
 

@@ -66,8 +66,7 @@ def analyse(
     # Stalled sections carry more of the lift's moment than on rotors that were compared with measurement.
     ends = largest(solution, options) if options.remedy else (None, None)
     sentence = stalled_sentence(design, solution.stalled_moment, *ends)
-    refused = replace(solution, status=Status.NOT_CONVERGED, message=sentence)
-    return Analysis(refused, found.linear)
+    return Analysis(replace(solution, status=Status.NOT_CONVERGED, message=sentence), found.linear)
 
 
 def _trim_branch(design: Design, start: Start, options: SolverOptions, freedoms: Sequence[Freedom]) -> Analysis:

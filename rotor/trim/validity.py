@@ -66,7 +66,6 @@ class CaveatInputs:
 
     @property
     def mu(self) -> float:
-        """Advance ratio."""
         return self.design.condition.advance_ratio
 
     @property
@@ -91,9 +90,7 @@ def _of_the_rotor(trim: CaveatInputs) -> dict[str, str]:
     design, models = trim.design, trim.design.models
     found = dict[str, str]()
     if design.aircraft.hub == "teetering" and design.rotor.precone is None:
-        found["teetering"] = (
-            "A teetering hub has built-in coning; here the blades cone as if each were hinged at the shaft."
-        )
+        found["teetering"] = "A teetering hub has built-in coning; here the blades cone as if hinged at the shaft."
     if design.twist != design.rotor.builtin_twist:
         root, tip = design.twist(np.array([design.rotor.blade.root_cutout, 1.0])).tolist()
         if abs(tip - root) > LARGEST_BUILT_TWIST:
@@ -123,8 +120,7 @@ def _of_the_rotor(trim: CaveatInputs) -> dict[str, str]:
         )
     if models.has("elastic_twist") and design.rotor.blade.structure is None:
         found["no-blade-structure"] = (
-            "The rotor file has no blade structure, so the blade is rigid in torsion here; real blades twist by "
-            "degrees in flight."
+            "The rotor file has no blade structure, so the blade is rigid in torsion; real blades twist by degrees."
         )
     return found
 
@@ -213,8 +209,7 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
         found["controls"] = f"The trim is beyond the control stops: {', '.join(beyond)}."
     if mu > HIGH_SPEED:
         found["high-speed"] = (
-            f"Above advance ratio {HIGH_SPEED:.2f}, reverse flow and stall dominate; the section data describe them "
-            "only roughly."
+            f"Above advance ratio {HIGH_SPEED:.2f}, reverse flow and stall dominate; section data are only rough there."
         )
     loading = trim.solution.ct / design.rotor.solidity
     if design.hovering and loading > HOVER_CAUTION:
@@ -244,14 +239,11 @@ def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
     if disk.fit_range is None:  # Tables, not polynomials of one Mach number.
         if top_mach > disk.mach_limit:
             found["mach-outside-data"] = (
-                f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f} and are constant "
-                "above."
+                f"The tip reaches Mach {top_mach:.2f}; section data end at {disk.mach_limit:.2f}, constant above."
             )
         return found
     if top_mach > 0.5:
-        found["no-compressibility"] = (
-            f"The section polar holds for one Mach number; the tip reaches Mach {top_mach:.2f}."
-        )
+        found["no-compressibility"] = f"The section polar holds for one Mach number; the tip reaches {top_mach:.2f}."
     if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
         found["mixed-section-data"] = (
             f"Part of the blade uses the polynomials {THESIS_NAME} for one Mach number and transition, the rest tables "

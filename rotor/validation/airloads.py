@@ -34,8 +34,6 @@ HIGHEST_TIP = 3
 
 @dataclass(frozen=True)
 class FlownCase:
-    """One condition of a test."""
-
     test: str
     """Name of the set on the command line."""
     name: str
@@ -109,7 +107,6 @@ class MeasuredCurve:
 
     @property
     def waves(self) -> Array:
-        """`harmonics` of this curve."""
         return harmonics(self.psi, self.values, self.highest)
 
 
@@ -174,9 +171,8 @@ def _curves(case: FlownCase) -> Iterator[MeasuredCurve]:
             ("tip_twist_deg", 1.0, "twist", "twist_deg"), ("tip_flap", 1.0, "flap", "z"),
         ):  # fmt: skip
             rows = csv_rows(asset_path(f"measured/hart2_{file}.csv"))
-            rows = [
-                row for row in rows if row.get("case", case.name) == case.name
-            ]  # One column of loads for each case.
+            # One column of loads for each case.
+            rows = [row for row in rows if row.get("case", case.name) == case.name]
             psi_deg, values = columns(rows, "psi_deg", column)
             yield MeasuredCurve(case, quantity, r, np.radians(psi_deg), values)
         return
@@ -259,7 +255,6 @@ def closed_around(psi: Array, values: Array) -> tuple[Array, Array]:
 
 
 def azimuth_chart(title: str, label: str, series: Iterable[Series]) -> Chart:
-    """A chart over the azimuth."""
     return Chart(title, Axis("azimuth [°]", ticks=AZIMUTH), Axis(label), tuple(series))
 
 

@@ -4,21 +4,20 @@ Each file has report, rotor, trim and scatter; the comparison gives rows and cha
 """
 
 import math
-import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
 from functools import cache, cached_property, lru_cache
-from typing import Any, Literal, cast
+from typing import Any, Literal
 
 import numpy as np
 
 from rotor.design.aircraft import Stand
-from rotor.design.design import Design
-from rotor.design.quantities import HoverInflow
+from rotor.design.design import Design, with_models
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import shipped_aircraft
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 from rotor.support.chart import Axis, Chart, Line, Points, Series
+from rotor.support.user_input import check_known
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet
@@ -52,8 +51,6 @@ ALSO = {"xv15-forward-15deg": ("uniform",)}
 
 @dataclass(frozen=True)
 class MeasuredSet:
-    """The points of one test."""
-
     name: str
     title: str
     report: str
@@ -133,9 +130,8 @@ def sets_of(rotor: str) -> tuple[MeasuredSet, ...]:
 @cache
 def load_set(name: str) -> MeasuredSet:
     """The set of that name; ValueError with one sentence for any other."""
-    if name not in SETS:
-        raise ValueError(f"set {name!r} is not known: use one of {', '.join(SETS)}")
-    record: dict[str, Any] = tomllib.loads(asset_path(f"measured/{name}.toml").read_text(encoding="utf-8"))
+    check_known("set", name, SETS)
+    record: dict[str, Any] = dict(toml_asset(f"measured/{name}.toml"))
     columns: dict[str, list[float]] = record.pop("points")
     rows = zip(*columns.values(), strict=True)
     return MeasuredSet(
@@ -149,8 +145,6 @@ def load_set(name: str) -> MeasuredSet:
 
 @dataclass(frozen=True)
 class ComparedPoint:
-    """One measured point with the computed one."""
-
     given: dict[str, float]
     measured: dict[str, float]
     computed: dict[str, float] | None
@@ -178,7 +172,6 @@ class Comparison:
 
     @property
     def judged(self) -> tuple[ComparedPoint, ...]:
-        """Points that count."""
         return tuple(point for point in self.points if self.measured.counts({**point.given, **point.measured}))
 
     @property
@@ -197,9 +190,7 @@ class Comparison:
     @property
     def worst_percent(self) -> float | None:
         """The error of the largest size among the judged points that trim."""
-        return max(
-            (point.error_percent for point in self.judged if point.error_percent is not None), key=abs, default=None
-        )
+        return max((one.error_percent for one in self.judged if one.error_percent is not None), key=abs, default=None)
 
     @property
     def worst(self) -> str:
@@ -207,9 +198,7 @@ class Comparison:
         if self.measured.tolerance is None:
             return f"{self.worst_percent:+.1f} {self.measured.unit}"
         name = self.measured.quantity
-        differences = (
-            point.computed[name] - point.measured[name] for point in self.judged if point.computed is not None
-        )
+        differences = (one.computed[name] - one.measured[name] for one in self.judged if one.computed is not None)
         return f"{max(differences, key=abs):+.5f}"
 
     @property
@@ -370,8 +359,7 @@ def _base(measured: MeasuredSet, inflow: str | None) -> Design:
     """The rotor of a set as built, with the models of `flight` and the inflow asked for."""
     if measured.kind == "forward" or inflow is None:
         return make_design(rotor=measured.rotor, inflow=inflow)
-    base = make_design(rotor=measured.rotor)
-    return replace(base, models=replace(base.models, hover_inflow=cast(HoverInflow, inflow)))
+    return with_models(make_design(rotor=measured.rotor), hover_inflow=inflow)
 
 
 def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | None = None) -> Design:

@@ -143,7 +143,6 @@ def coverage(points: Iterable[tuple[PointAndBand, Sequence[float]]]) -> tuple[fl
 
 
 def doubt_set() -> TrustSet:
-    """For the trust page."""
     words, points, sizes = description(NAME), points_and_bands(), shipped_sizes()
     rows: list[TrustRow] = []
     series: list[Points] = []
@@ -159,12 +158,8 @@ def doubt_set() -> TrustSet:
         name = f"{ROTORS[rotor]}, {kind}"
         series.append(Points("", over, [len(rows)] * len(mine), 1))
         rows.append(words.row(name, shown, inside / len(mine), 0.1, note=words.notes.get(name, "")))
-    chart = Chart(
-        "Error over band",
-        Axis("(measured − computed)/band"),
-        Axis(names=tuple(row.what for row in rows)),
-        tuple(series),
-    )
+    along = Axis("(measured − computed)/band")
+    chart = Chart("Error over band", along, Axis(names=tuple(row.what for row in rows)), tuple(series))
     left = left_out_sizes(points)
     means = {
         "Mean over rotors, hover": [(point, sizes) for point in points if point.kind == HOVER],

@@ -55,7 +55,6 @@ def height(course: WakeCourse, x: Array, y: Array) -> Array:
 
 
 def cases() -> tuple[airloads.FlownCase, airloads.FlownCase]:
-    """BL and MN."""
     baseline, moved = (case for case in airloads.CASES if case.test == SET)
     return baseline, moved
 
@@ -66,16 +65,12 @@ def curves() -> dict[tuple[str, str], airloads.MeasuredCurve]:
 
 
 def hart2_set() -> TrustSet:
-    """For the trust page."""
     solutions = {case.name: solve(case.design()).require() for case in cases()}
     agreements = {key: airloads.agreement(curve, solutions[key[0]]) for key, curve in curves().items()}
     normal = [agreements[name, "cn_m2"].correlation for name in solutions]
-    return description(SET).page(
-        f"C_n M² correlation {normal[0]:.2f}, {normal[1]:.2f}",
-        _rows(agreements, solutions),
-        (*_charts(solutions), _vortex_chart(solutions["BL"])),
-        points=_points(agreements),
-    )
+    words = f"C_n M² correlation {normal[0]:.2f}, {normal[1]:.2f}"
+    charts = (*_charts(solutions), _vortex_chart(solutions["BL"]))
+    return description(SET).page(words, _rows(agreements, solutions), charts, points=_points(agreements))
 
 
 _Agreements = Mapping[tuple[str, str], airloads.CurveAgreement]
@@ -160,7 +155,6 @@ def _vortex_chart(solution: Solution) -> Chart:
 
 
 def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
-    """Means and harmonics."""
     rows: list[tuple[str, ...]] = [
         ("Case", "Quantity", "n", "Measured", "Measured φ [°]", "Computed", "Computed φ [°]", "Miss [%]")
     ]

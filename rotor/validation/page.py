@@ -98,7 +98,6 @@ def write_trust(sets: Iterable[TrustSet], folder: Path) -> Path:
 
 
 def trust_csv(rows: Iterable[TrustRow]) -> str:
-    """assets/trust.csv."""
     cells = ([_plain(cell) for cell in astuple(row)] for row in rows)
     return csv_text([[field.name for field in fields(TrustRow)], *cells], _HEADING)
 
@@ -111,15 +110,13 @@ def write_set(data: TrustSet, folder: Path) -> Path:
         write_whole(folder / _picture(data, k), svg(chart))
     write_whole(folder / f"{data.name}-small.svg", small_svg(data.charts[0]))
     for file, _, rows in _tables(data):
-        text = csv_text(rows, f"# {data.title}. {_source(data)}\n# Made by: make trust\n")
-        write_whole(folder / file, text)
+        write_whole(folder / file, csv_text(rows, f"# {data.title}. {_source(data)}\n# Made by: make trust\n"))
     path = folder / f"{data.name}.md"
     write_whole(path, set_page(data))
     return path
 
 
 def summary(sets: Sequence[TrustSet]) -> str:
-    """docs/validation.md."""
     parts: list[str] = []
     for kind, against in _AGAINST.items():
         rows = [
@@ -147,7 +144,6 @@ def summary(sets: Sequence[TrustSet]) -> str:
 
 
 def set_page(data: TrustSet) -> str:
-    """docs/validation/NAME.md."""
     kind = data.rows[0].kind
     labels = [row.what.removeprefix(f"{data.title}: ") for row in data.rows]
     judged = kind == "document" or any(row.target for row in data.rows)

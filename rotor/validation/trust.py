@@ -4,17 +4,15 @@ The rows are made by runs (`python -m rotor reproduce OUT --trust`) and shipped 
 and compares them, so they stay current.
 """
 
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
-from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.support.assets import asset_path, csv_rows
+from rotor.support.assets import asset_path, csv_rows, toml_asset
 from rotor.support.chart import Chart
 
 Kind = Literal["validation", "indicative", "verification", "public code", "document"]
@@ -40,8 +38,6 @@ VERDICTS: dict[Verdict, str] = {
 
 @dataclass(frozen=True)
 class TrustRow:
-    """One comparison."""
-
     set: str
     """Name of its set, which is that of its page in docs/validation."""
     kind: Kind
@@ -168,21 +164,10 @@ class SetDescription:
 
 def description(name: str) -> SetDescription:
     """The words of a set of the trust page."""
-    record: dict[str, Any] = dict(_descriptions()[name])
+    record: dict[str, Any] = dict(toml_asset("trust_sets.toml")[name])
     record["text"] = tuple(record.get("text", ()))
     record["tried"] = tuple(tuple[str, ...](row) for row in record.get("tried", ()))
     return SetDescription(name, **record)
-
-
-@cache
-def _descriptions() -> dict[str, Any]:
-    return tomllib.loads(asset_path("trust_sets.toml").read_text(encoding="utf-8"))
-
-
-@cache
-def trust_rows() -> tuple[TrustRow, ...]:
-    """The shipped rows, in order of kind."""
-    return read_trust(asset_path("trust.csv"))
 
 
 def coverage() -> float:
@@ -192,13 +177,14 @@ def coverage() -> float:
     return share
 
 
-def read_trust(path: Path) -> tuple[TrustRow, ...]:
-    """Rows of a trust file; ValueError for a kind or a verdict that is not known."""
+@cache
+def trust_rows() -> tuple[TrustRow, ...]:
+    """The shipped rows, in order of kind; ValueError for a kind or a verdict that is not known."""
     rows: list[TrustRow] = []
-    for cells in csv_rows(path):
+    for cells in csv_rows(asset_path("trust.csv")):
         for name, known in (("kind", KINDS), ("verdict", VERDICTS)):
             if cells[name] not in known:
-                raise ValueError(f"{path.name} has a row of {name} {cells[name]!r}: use one of {', '.join(known)}")
+                raise ValueError(f"trust.csv has a row of {name} {cells[name]!r}: use one of {', '.join(known)}")
         row: dict[str, Any] = {**cells, "allowed": float(cells["allowed"])}
         row["error"] = float(cells["error"]) if cells["error"] else None
         rows.append(TrustRow(**row))

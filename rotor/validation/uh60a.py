@@ -7,7 +7,6 @@ down in the second (An Examination of the Aerodynamic Moment on Rotor Blade Tips
 """
 
 import math
-import tomllib
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
@@ -17,10 +16,11 @@ import numpy as np
 
 from rotor.airfoil.public_points import agreement, public_points
 from rotor.airfoil.sections import load_section
+from rotor.design.design import with_models
 from rotor.dynamics.flapping import lock_number
 from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.support.arrays import Array
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 from rotor.support.chart import Axis, Chart, Line, Points, Series
 from rotor.support.units import KNOT
 from rotor.trim.solve import solve
@@ -40,10 +40,9 @@ LOAD_HARMONICS = (1, 2, 3, 4)
 """Harmonics of the pitch-link load that are shown."""
 
 
-@cache
 def public_data() -> dict[str, Any]:
     """The parsed `assets/comparison.toml`."""
-    return tomllib.loads(asset_path("comparison.toml").read_text(encoding="utf-8"))
+    return toml_asset("comparison.toml")
 
 
 @cache
@@ -52,7 +51,7 @@ def hover_comparison() -> tuple[list[float], list[float], list[float]]:
     points = public_data()["hover"]
     solidity = points["solidity"]
     base = make_design(mu=0.0)
-    base = replace(base, models=replace(base.models, download=False))  # Measured is the rotor's own thrust.
+    base = with_models(base, download=False)  # Measured is the rotor's own thrust.
     computed: list[float] = []
     for ct in points["ct_over_sigma"]:
         mass = base.condition.mass * ct * solidity / base.weight_coefficient
@@ -191,8 +190,6 @@ def constants_set() -> TrustSet:
 
 @dataclass(frozen=True, eq=False)
 class PitchLinkLoad:
-    """One advance ratio."""
-
     mu: float
     measured: airloads.MeasuredCurve
     psi: Array
@@ -218,7 +215,7 @@ def pitch_link_loads() -> Iterator[PitchLinkLoad]:
         if measured.case.test == airloads.PITCH_LINK:
             design = measured.case.design()
             solution = solve(design).require()
-            rigid = solve(replace(design, models=replace(design.models, bending=False))).require()
+            rigid = solve(with_models(design, bending=False)).require()
             psi, computed = airloads.computed_curve(measured, solution)
             yield PitchLinkLoad(
                 design.condition.advance_ratio, measured, psi, computed, airloads.computed_curve(measured, rigid)[1],
@@ -227,7 +224,6 @@ def pitch_link_loads() -> Iterator[PitchLinkLoad]:
 
 
 def pitch_link_set() -> TrustSet:
-    """For the trust page."""
     loads = list(pitch_link_loads())
     errors = [computed / measured - 1.0 for measured, computed, _ in (load.half_peaks for load in loads)]
     return description(airloads.PITCH_LINK).page(
@@ -266,9 +262,7 @@ def _amplitude_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
     mu = [load.mu for load in loads]
     series: list[Series] = []
     for n in LOAD_HARMONICS:
-        theirs, computed = (
-            [1e-3 * load.beside.amplitude(n, measured=measured) for load in loads] for measured in (True, False)
-        )
+        theirs, computed = ([1e-3 * load.beside.amplitude(n, measured=of) for load in loads] for of in (True, False))
         series.append(Points(f"{n}/rev, measured", mu, theirs, n))
         series.append(Line("computed", mu, computed, n))
     return Chart("Harmonics of the pitch-link load", Axis("advance ratio µ"), Axis("amplitude [kN]"), tuple(series))

@@ -5,7 +5,6 @@ flow. Their numbers are those of the shipped rows: `tests/tools/cross_codes.py` 
 """
 
 import math
-from dataclasses import replace
 
 import numpy as np
 from scipy.integrate import solve_ivp  # pyright: ignore[reportUnknownVariableType]
@@ -17,7 +16,7 @@ from rotor.aero.losses import loss_factor
 from rotor.aero.problem import build_problem
 from rotor.aero.section import CHANNELS, FZ, LOSS, TH, UP, UR, UT, section
 from rotor.columns.hover import closed_form_inflow
-from rotor.design.design import Design
+from rotor.design.design import Design, with_models
 from rotor.engine.waves import waves_at
 from rotor.files.make_design import make_design
 from rotor.support.arrays import Array
@@ -82,7 +81,7 @@ def _energy() -> float:
     errors: list[float] = []
     for inflow in ("lifting-line", "local-momentum", "pitt-peters"):
         for mu in SPEEDS:
-            power = solve(_with_inflow(make_design(mu=mu), inflow)).require().power
+            power = solve(with_models(make_design(mu=mu), inflow=inflow)).require().power
             errors.append(abs(power.shaft / power.main_rotor - 1.0))
     return max(errors)
 
@@ -116,7 +115,7 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
     instant's own β and β' in steady flow, with controls and inflow as trimmed; nothing here uses harmonics.
     """
     design = make_design(preset=preset, twist="linear:-10", mu=mu, off="elastic-twist,unsteady,dynamic-stall")
-    problem = build_problem(_with_inflow(design, "pitt-peters"))
+    problem = build_problem(with_models(design, inflow="pitt-peters"))
     trim = newton(problem, first_guess(problem))
     state, elements, model = trim.state, trim.linear.elements, problem.inflow
     assert isinstance(model, LinearInflow)
@@ -133,11 +132,8 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
         channels = np.zeros((len(CHANNELS), len(r), 1))
         channels[TH] = problem.twist[:, None] + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin
-        channels[UT], channels[UR], channels[LOSS] = (
-            r - elements.swirl[:, None] + flow.mu_x * sin,
-            flow.mu_x * cos,
-            loss,
-        )
+        channels[UT], channels[UR] = r - elements.swirl[:, None] + flow.mu_x * sin, flow.mu_x * cos
+        channels[LOSS] = loss
         channels[UP] = spread * model.field(disk.r, waves_at(3, np.array([psi])), at_disk)[0] + arm[:, None] * motion[1]
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
         moment = float(arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
@@ -150,10 +146,6 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
     marched = np.array([beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean()])
     second = 2.0 * math.hypot((beta * np.cos(2 * psi)).mean(), (beta * np.sin(2 * psi)).mean())
     return marched, np.array([state.coning, state.flap_1c, state.flap_1s]), second
-
-
-def _with_inflow(design: Design, inflow: str) -> Design:
-    return replace(design, models=replace(design.models, inflow=inflow))
 
 
 _IDENTITIES = (

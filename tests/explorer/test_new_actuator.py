@@ -24,6 +24,7 @@ from rotor.actuator.kind import Actuator, InstalledActuator, MassBreakdown
 from rotor.actuator.section import Placement
 from rotor.actuator.tables import table_5_1
 from rotor.support.arrays import Array
+from rotor.support.assets import toml_asset
 from tests.actuate import actuate, asked
 
 ROW = {
@@ -64,7 +65,7 @@ def flap(installed: InstalledActuator, blade: Rotor) -> list[BladePart]:
 @pytest.fixture(autouse=True)
 def flaps(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     monkeypatch.setitem(catalogue.KINDS, "servo_flap", ServoFlap)
-    monkeypatch.setitem(catalogue._data("actuators"), "servo_flap", [ROW])
+    monkeypatch.setitem(toml_asset("actuators.toml"), "servo_flap", [ROW])
     monkeypatch.setitem(DRAWINGS, ServoFlap, Drawing(flap, PieceStyle((1, 2, 3)), None))
     catalogue.actuators.cache_clear()
     yield

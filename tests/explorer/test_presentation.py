@@ -79,7 +79,7 @@ def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
 
     first, second, again, third = ran(visit)
     assert first.startswith("Presenting: 1 follower")  # The second.
-    assert second.startswith("Another tab of this browser is already presenting; this one follows it.")
+    assert second.startswith("Another tab of this browser is presenting; this one follows it.")
     assert again.startswith("Presenting: 1 follower")
     assert third.startswith("Presenting: 1 follower")
 

@@ -175,7 +175,7 @@ ALIKE = {
         "Objective('total', ())": "give at least one",
         "hover_and_cruise(design, 1.5, 0.3)": "hover share 1.5",
         "ActiveTwist((Harmonic(2, 0.01),) * 100_000)": "2/rev twice",
-        "ActiveTwist((), (0.5,), (1.0,))": "give two or more pairs",
+        "ActiveTwist((), (0.5,), (1.0,))": "give 2 or more pairs",
         "rotor.make_design(twist_per_rev='2:21:0')": "outside 0…20°",
         "parse_study('[axes]\\npitch_per_rev = [\"1:1:0\"]\\n')": "line 2: root pitch at 1/rev",
         "with_actuator(rotor.make_design(rotor='s61'), 'MFC_P1')": "structure of the Sikorsky S-61",

@@ -44,7 +44,6 @@ class ActuatorPanel:
         self.inputs = self.controls.inputs
 
     def hand(self) -> HandSettings:
-        """What the hand has set by now."""
         return replace(self._hand, actuator=self.inputs(), on_board=self._context.layout.mode == "actuate")
 
     def perform(self, effect: SetHand | SetAddress) -> None:
@@ -63,7 +62,6 @@ class ActuatorPanel:
         self._context.wake()
 
     def put(self, hand: HandSettings) -> None:
-        """Set all of it."""
         if hand != self.hand():
             self._set(**vars(hand))
             self.controls.place(vars(hand.actuator))

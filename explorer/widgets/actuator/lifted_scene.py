@@ -122,7 +122,6 @@ class LiftedScene:
         self._leaving.start()
 
     def stop(self) -> None:
-        """The browser has left."""
         if self._leaving is not None:
             self._leaving.cancel()
 

@@ -111,12 +111,13 @@ class LecturePanel:
         """To another step; beyond the last the lecture ends, in Actuate."""
         step = 0 if self.place is None else self.place.step + by
         if step >= len(STEPS):
-            self._fly_on()
+            before, now = self._leave(), self._screen.on_screen()
+            back = now if before is None else replace(now, view=before.view, against=before.against)
+            self._screen.put(replace(back, mode="actuate", look="actuator"))
         else:
             self.set(max(step, 0))
 
     def set(self, step: int) -> None:
-        """Set the page as a step describes it."""
         if self._before is None:
             self._before = self._screen.on_screen()
             self._guesses.clear()
@@ -165,7 +166,9 @@ class LecturePanel:
             self._show()
         if state is None:
             return
-        self._name_case(state.inputs)
+        own = state.inputs.own_rotor
+        held = (title for title, case in CASES.items() if replace(case, own_rotor=own) == state.inputs)
+        self._case.value = next(held, _NO_CASE)
         if self.place is None:
             return
         if self._against is None or state.pin is None or state.pin.inputs != self._against:
@@ -174,12 +177,6 @@ class LecturePanel:
         if against is not None and not same_but_flight(against, self._against):
             self._against = against
             self._context.pin(against)
-
-    def _fly_on(self) -> None:
-        """The lecture ends in Actuate, on the blade of its last step."""
-        before, now = self._leave(), self._screen.on_screen()
-        back = now if before is None else replace(now, view=before.view, against=before.against)
-        self._screen.put(replace(back, mode="actuate", look="actuator"))
 
     def _leave(self) -> ScreenState | None:
         """No step stands any more; the visitor's own page."""
@@ -249,7 +246,6 @@ class LecturePanel:
         return compared_inputs(stop.against, stop.inputs, inputs)
 
     def _show(self) -> None:
-        """The steps in the frame."""
         with self._showing:
             self._send()
 
@@ -296,11 +292,6 @@ class LecturePanel:
         if title in CASES:
             self._context.set_inputs(self._kept(CASES[title]))
 
-    def _name_case(self, inputs: Inputs) -> None:
-        """The menu names a case for as long as the sliders hold it."""
-        held = (title for title, case in CASES.items() if replace(case, own_rotor=inputs.own_rotor) == inputs)
-        self._case.value = next(held, _NO_CASE)
-
     def _kept(self, inputs: Inputs) -> Inputs:
         """These inputs, with the rotor that the user brought still in the menu."""
         return replace(inputs, own_rotor=self._context.inputs().own_rotor)
@@ -330,7 +321,6 @@ class LecturePanel:
             self._change(replace(place, guess=int(answer)))
 
     def _stop_asked(self, stop: Any) -> None:
-        """The control was moved."""
         place = self.place
         facts = None if place is None else self._facts(place.step)
         if self._context.held or place is None or facts is None:
@@ -352,5 +342,4 @@ class LecturePanel:
 
 
 def _task(step: int) -> Call:
-    """Finds the numbers of a step, from 0."""
     return Call(facts_at, (step,))

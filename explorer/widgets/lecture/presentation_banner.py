@@ -33,8 +33,7 @@ _FOLLOWING = "Following a presentation: the presenter controls this page."
 _PLAYING = "Your turn: move the sliders to the least power. The presenter sees the best of each player."
 _AWAY = "The presenter has left: the page is yours. It follows again if they return before you change the design."
 _DUPLICATE = (
-    "Another tab of this browser is already presenting; this one follows it. To present here, close that tab and "
-    "reload."
+    "Another tab of this browser is presenting; this one follows it. To present here, close that tab and reload."
 )
 
 
@@ -115,7 +114,6 @@ class PresentationBanner:
         self._context.notify("Presenting", "The link for followers is in the clipboard and in the line above.")
 
     def end(self) -> None:
-        """Stop presenting."""
         self._presentations.end(self._secret)
         self._presentations.release(self)
         self._secret = ""

@@ -102,8 +102,7 @@ class MapPanel:
     def _take(self, place: MapPress) -> None:
         """The map was clicked: its design there goes onto the sliders."""
         if self.map is not None and not self._context.held:
-            design = self.map.at(place.x, place.y)
-            self._context.set_inputs(with_optimum(self._context.inputs(), design))
+            self._context.set_inputs(with_optimum(self._context.inputs(), self.map.at(place.x, place.y)))
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:
         if self._x.value not in titles or self._y.value not in titles:

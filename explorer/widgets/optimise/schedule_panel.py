@@ -39,19 +39,12 @@ class SchedulePanel:
         self._mission = gui.add_text("Legs, µ:hours", mission.MISSION, multiline=True, hint=hint("mission"))
         self._mission.on_update(lambda _: context.wake())
         self._read = gui.add_html("")
-        self._buttons = WorkButtons(
-            gui,
-            "Compute schedule",
-            "Stop schedule",
-            ("schedule", "schedule_stop"),
-            self.begin,
-            partial(context.work.halt, NAME),
-        )
+        entries, halt = ("schedule", "schedule_stop"), partial(context.work.halt, NAME)
+        self._buttons = WorkButtons(gui, "Compute schedule", "Stop schedule", entries, self.begin, halt)
         self._state = gui.add_html("")
         self._table = gui.add_html("")
-        self._results = gui.add_button_group(
-            "Result", ("Apply fixed", "Save CSV"), visible=False, hint=hint("schedule_result")
-        )
+        words = hint("schedule_result")
+        self._results = gui.add_button_group("Result", ("Apply fixed", "Save CSV"), visible=False, hint=words)
         self._twists, self._savings = PanelChart(gui), PanelChart(gui)
         self._results.on_click(self._result_clicked)
 
@@ -64,14 +57,9 @@ class SchedulePanel:
         request = self._request()
         try:
             design = self._context.inputs().design()
-            plan = SchedulePlan(
-                design,
-                (request.known_concept(),),
-                self.legs(design),
-                "induced" if request.objective == "induced" else "total",
-                request.limits(design),
-                STARTS,
-            )
+            concepts, legs = (request.known_concept(),), self.legs(design)
+            quantity = "induced" if request.objective == "induced" else "total"
+            plan = SchedulePlan(design, concepts, legs, quantity, request.limits(design), STARTS)
             self._refused = ""
         except ValueError as error:
             self._refused = str(error)

@@ -3,6 +3,7 @@
 from rotor.aero.inflow import lifting_line, linear, local_momentum
 from rotor.aero.inflow.interface import DiskFlow as DiskFlow
 from rotor.aero.inflow.interface import InflowModel as InflowModel
+from rotor.support.user_input import check_known
 
 MODELS: tuple[InflowModel, ...] = (*linear.MODELS, *local_momentum.MODELS, *lifting_line.MODELS)
 """From the simplest to the most detailed."""
@@ -12,6 +13,5 @@ INFLOW_MODELS = {model.name: model for model in MODELS}
 
 def inflow_model(name: str) -> InflowModel:
     """The model of that name; ValueError lists the names for any other."""
-    if name not in INFLOW_MODELS:
-        raise ValueError(f"inflow model {name!r} is not known: use one of {', '.join(INFLOW_MODELS)}")
+    check_known("inflow model", name, INFLOW_MODELS)
     return INFLOW_MODELS[name]

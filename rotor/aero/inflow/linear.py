@@ -40,7 +40,6 @@ class LinearInflow(HarmonicInflow):
     columns = (COS, "r"), (SIN, "r")
 
     def along(self, r: Array) -> dict[str, Array]:
-        """r"""
         return {"r": r}
 
     def gains(self, flow: DiskFlow) -> tuple[float, float]:

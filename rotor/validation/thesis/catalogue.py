@@ -25,7 +25,6 @@ class CatalogueEntry:
 
     @property
     def chapter(self) -> str:
-        """Chapter of the thesis."""
         return thesis()[self.number]["chapter"]
 
     @property
@@ -100,9 +99,7 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
         kind = args[0] if function is best else (function, args)
         groups.setdefault(kind, []).append((function, args))
     first = (actuation.COMPARED, *reversed(VARIANTS))  # The lifting line takes longest.
-    return [
-        groups[kind] for kind in sorted(groups, key=lambda kind: first.index(kind) if kind in first else len(first))
-    ]
+    return [groups[one] for one in sorted(groups, key=lambda one: first.index(one) if one in first else len(first))]
 
 
 def trust_sets(reports: Iterable[Report]) -> tuple[TrustSet, ...]:

@@ -6,12 +6,12 @@ against the number of blade elements and of azimuths, with the order of converge
 
 import math
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
 
 from rotor.aero.switches import with_switches
+from rotor.design.design import with_models
 from rotor.files.make_design import make_design
 from rotor.support.chart import Axis, Chart, Series
 from rotor.trim.solution import DiskFields
@@ -19,6 +19,7 @@ from rotor.trim.solve import solve
 from rotor.validation.thesis.report import Report, curve, judged, panel, report, table
 from rotor.validation.thesis.runs import FLIGHT_LINEAR, variant
 
+Curves = dict[str, list[float]]
 FINE_ELEMENTS = 200
 """Elements of fig. 2.7: enough to see the load fall within the last per cent of the blade."""
 FAST_MU = 0.30
@@ -33,17 +34,13 @@ def figure_2_7() -> Report:
     numbers: dict[str, float] = {}
     for k, (preset, twist) in enumerate((("thesis", "linear:-16"), ("flight", "uh60a"))):
         design = make_design(preset=preset, twist=twist, mu=0.0)
-        disk = solve(replace(design, models=replace(design.models, elements=FINE_ELEMENTS, azimuths=8))).require().disk
+        disk = solve(with_models(design, elements=FINE_ELEMENTS, azimuths=8)).require().disk
         lift = disk.dct[:, 0]
         inner, outer = _share(disk, lift, 0.5, 0.9), _share(disk, lift, 0.9, 1.0)
         at_peak = float(disk.r[int(lift.argmax())])
         at_tip = float(lift[-1] / lift.max())
-        numbers |= {
-            f"{preset}_share": inner,
-            f"{preset}_tip_share": outer,
-            f"{preset}_peak": at_peak,
-            f"{preset}_tip_over_peak": at_tip,
-        }
+        numbers |= {f"{preset}_share": inner, f"{preset}_tip_share": outer}
+        numbers |= {f"{preset}_peak": at_peak, f"{preset}_tip_over_peak": at_tip}
         rows += [(preset, r, v, f) for r, v, f in zip(disk.r, disk.induced[:, 0], lift, strict=True)]
         inflow.append(curve(f"{preset}, {twist}", disk.r, disk.induced[:, 0], colour=k))
         thrust.append(curve(f"{preset}, {twist}", disk.r, lift, colour=k))
@@ -117,8 +114,7 @@ CASES = (("thesis", "linear:-16"), (FLIGHT_LINEAR, "uh60a"))
 def power_on(name: str, twist: str, mu: float, elements: int, azimuths: int) -> float:
     """Main-rotor power on a grid [kW]."""
     design = variant(name, twist=twist, mu=mu)
-    models = replace(design.models, elements=elements, azimuths=azimuths)
-    return solve(replace(design, models=models)).require().power.main_rotor / 1e3
+    return solve(with_models(design, elements=elements, azimuths=azimuths)).require().power.main_rotor / 1e3
 
 
 LINE_SPEEDS = (0.1, 0.2, 0.3, 0.35)
@@ -128,8 +124,7 @@ LINE_SPEEDS = (0.1, 0.2, 0.3, 0.35)
 def line_error(mu: float) -> float:
     """Error of the power of the default model on its panels and azimuths, against twice as many of both [-]."""
     design = make_design(mu=mu)
-    models = replace(design.models, panels=2 * design.models.panels, line_azimuths=2 * design.models.line_azimuths)
-    finer = replace(design, models=models)
+    finer = with_models(design, panels=2 * design.models.panels, line_azimuths=2 * design.models.line_azimuths)
     return solve(design).require().power.main_rotor / solve(finer).require().power.main_rotor - 1.0
 
 
@@ -143,9 +138,8 @@ def convergence_order(powers: Sequence[float]) -> float:
 
 
 def figure_3_9() -> Report:
-    """Azimuths."""
-    powers: dict[str, list[float]] = {}
-    errors: dict[str, list[float]] = {}
+    powers: Curves = {}
+    errors: Curves = {}
     numbers: dict[str, float] = {}
     for name, twist in CASES:
         *powers[name], finest = [power_on(name, twist, FORWARD, 40, m) for m in (*AZIMUTHS, FINEST_AZIMUTHS)]
@@ -172,8 +166,8 @@ def figure_3_9() -> Report:
 def elements_figure(number: str) -> Report:
     """Power against the number of elements: 3.7 in hover, 3.8 in forward flight."""
     mu, azimuths = (0.0, 8) if number == "3.7" else (FORWARD, 120)
-    powers: dict[str, list[float]] = {}
-    errors: dict[str, list[float]] = {}
+    powers: Curves = {}
+    errors: Curves = {}
     numbers: dict[str, float] = {}
     for name, twist in CASES:
         row = powers[name] = [power_on(name, twist, mu, n, azimuths) for n in ELEMENTS]
@@ -196,12 +190,7 @@ def elements_figure(number: str) -> Report:
 
 
 def _grid_panels(
-    what: str,
-    grid: Sequence[int],
-    powers: dict[str, list[float]],
-    errors: dict[str, list[float]],
-    mark: tuple[int, str],
-    reference: str,
+    what: str, grid: Sequence[int], powers: Curves, errors: Curves, mark: tuple[int, str], reference: str
 ) -> tuple[Chart, ...]:
     """Power and its error over the grid, each with a dashed line at the marked one."""
     panels: list[Chart] = []

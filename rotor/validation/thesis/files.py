@@ -46,8 +46,7 @@ def draw(report: Report, folder: Path) -> None:
         figure: Any = drawing_module().Figure(figsize=(width, height * down), layout="constrained")
         axes: Any = figure.subplots(down, across, squeeze=False)
         for k, panel in enumerate(panels):
-            place = axes[k // across][k % across]
-            draw_chart(panel, place, legend=not legend_below)
+            draw_chart(panel, axes[k // across][k % across], legend=not legend_below)
         if legend_below:
             handles, labels = axes[0][0].get_legend_handles_labels()
             columns = math.ceil(len(labels) / math.ceil(len(labels) / 5))
@@ -82,7 +81,6 @@ def csv_name(report: Report, table: ReportTable) -> str:
 
 
 def write_csv(path: Path, report: Report, table: ReportTable) -> None:
-    """One table with a heading of comments."""
     heading = f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n"
     # Six significant digits are more than the accuracy of any.
     rows = ([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in table.rows)

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 
 from rotor.airfoil import polynomial
-from rotor.files.make_design import uh60a_data
+from rotor.support.assets import toml_asset
 from rotor.support.chart import Axis, Chart
 from rotor.trim.solve import solve
 from rotor.validation.thesis.ladder import rung_design
@@ -150,7 +150,7 @@ TAIL_SPEEDS = (0.0, 0.1, 0.2, 0.3)
 
 def loaded_table(number: str) -> Report:
     """The numbers of `table 3.1`, the tail rotor, or of `table 3.2`, the main rotor, beside those that are loaded."""
-    data = uh60a_data()
+    data = toml_asset("uh60a.toml")
     main = data["main_rotor"]
     loaded = data["tail_rotor"] if number == "table 3.1" else {**main, **main["document"], **data["airframe"]}
     rows = [(key, value, float(loaded[key])) for key, value in thesis()[number]["numbers"].items()]
@@ -174,10 +174,8 @@ def tail_rotor() -> Report:
         shares.append(power.tail / power.main_rotor)
         rows.append((mu, power.main_rotor / 1e3, power.tail / 1e3, 100.0 * shares[-1]))
     low, high = min(shares), max(shares)
-    curves = (
-        curve("solved", TAIL_SPEEDS, [100 * share for share in shares], "both"),
-        curve("document", (TAIL_SPEEDS[0], TAIL_SPEEDS[-1]), (5.0, 5.0), "dashed"),
-    )
+    document = curve("document", (TAIL_SPEEDS[0], TAIL_SPEEDS[-1]), (5.0, 5.0), "dashed")
+    curves = curve("solved", TAIL_SPEEDS, [100 * share for share in shares], "both"), document
     return report(
         "tail rotor",
         judged(low >= 0.04 and high <= 0.06),

@@ -1,9 +1,8 @@
 """What the thesis omits or misprints, each with two lines of Python that are run to show it."""
 
 import math
-import tomllib
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
@@ -14,8 +13,9 @@ from rotor.aero.losses import prandtl
 from rotor.aero.momentum import glauert_inflow
 from rotor.airfoil.polynomial import THESIS_READING, polynomial_section, polynomial_table
 from rotor.airfoil.sections import load_section
+from rotor.design.design import with_models
 from rotor.files.make_design import make_design
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 from rotor.trim.solve import solve
 from rotor.validation.thesis.report import ReportTable, table
 from rotor.validation.thesis.runs import variant
@@ -26,8 +26,6 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Misprint:
-    """One misprint, ambiguity or omission."""
-
     equation: str
     kind: str
     """`misprint`, `ambiguous`, or `omission`."""
@@ -42,9 +40,7 @@ class Misprint:
     page: str = ""
 
 
-MISPRINTS = tuple(
-    Misprint(**row) for row in tomllib.loads(asset_path("misprints.toml").read_text(encoding="utf-8"))["misprint"]
-)
+MISPRINTS = tuple(Misprint(**row) for row in toml_asset("misprints.toml")["misprint"])
 
 
 def shown_values(misprint: Misprint) -> tuple[float, float]:
@@ -58,8 +54,7 @@ def shown_values(misprint: Misprint) -> tuple[float, float]:
 @cache
 def _names() -> dict[str, Any]:
     def hover_kw(design: Any, hover: Any) -> float:
-        models = replace(design.models, hover_inflow=hover)
-        return solve(replace(design, models=models)).require().power.main_rotor / 1e3
+        return solve(with_models(design, hover_inflow=hover)).require().power.main_rotor / 1e3
 
     def induced_kw(name: str, rate: float) -> float:
         return solve(variant(name, twist=f"linear:{rate:g}", mu=0.2)).require().power.induced / 1e3

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import product
 
 import numpy as np
 
@@ -190,11 +191,8 @@ def figure_4_12(most: int | None = None) -> Report:
 
 def figure_4_13(speeds: tuple[float, ...] = runs.FULL) -> Report:
     """All concepts side by side."""
-    savings = {
-        (name, concept): [_percent(name, concept, mu, speeds) for mu in speeds]
-        for name in runs.VARIANTS
-        for concept in runs.CONCEPTS
-    }
+    pairs = product(runs.VARIANTS, runs.CONCEPTS)
+    savings = {(name, concept): [_percent(name, concept, mu, speeds) for mu in speeds] for name, concept in pairs}
     panels: list[Chart] = []
     for name in runs.VARIANTS:
         curves: list[Series] = []
@@ -231,13 +229,8 @@ def table_4_1(speeds: tuple[float, ...] = runs.FULL) -> Report:
         }
         saving = {concept: 1.0 - power / variable.baseline_kw for concept, power in mean.items()}
         fixed, moving = 1.0 - variable.fixed_kw / variable.baseline_kw, 1.0 - mean["linear"] / variable.fixed_kw
-        rows.append(
-            (
-                name,
-                *(f"{100.0 * part:.2f}" for part in saving.values()),
-                f"{100.0 * fixed:.2f} ({variable.fixed_deg:.1f}°)",
-            )
-        )
+        shares = (f"{100.0 * part:.2f}" for part in saving.values())
+        rows.append((name, *shares, f"{100.0 * fixed:.2f} ({variable.fixed_deg:.1f}°)"))
         numbers |= {f"{name}_fixed": fixed, f"{name}_moving": moving}
         # Beyond one linear twist that moves; kept of the last, the flight preset.
         more = {concept: 1.0 - power / mean["linear"] for concept, power in mean.items()}

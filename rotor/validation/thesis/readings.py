@@ -13,7 +13,7 @@ import numpy as np
 
 from rotor.airfoil.polynomial import THESIS_NAME, PolynomialReading, parse_reading
 from rotor.design.blade import with_airfoils
-from rotor.design.design import Design
+from rotor.design.design import Design, with_models
 from rotor.design.quantities import LOSS_ON, LossOn
 from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
@@ -74,13 +74,11 @@ class Judgement:
 def reading_design(section: str, loss_on: LossOn, rate: float, mu: float) -> Design:
     """The `thesis` preset with these section data, Prandtl's factors there, and a linear twist [°/R]."""
     design = make_design(preset="thesis", twist=f"linear:{rate:.12g}", mu=mu)
-    design = replace(
-        design, rotor=with_airfoils(design.rotor, (section,), ()), models=replace(design.models, loss_on=loss_on)
-    )
+    design = with_models(replace(design, rotor=with_airfoils(design.rotor, (section,), ())), loss_on=loss_on)
     if section.startswith(THESIS_NAME):
         return design
     # Equation (3.3) has one lift curve for the whole blade; with Mach number the annulus balance takes its place.
-    return replace(design, models=replace(design.models, hover_inflow="annulus"))
+    return with_models(design, hover_inflow="annulus")
 
 
 def judge(section: str, loss_on: LossOn) -> tuple[Judgement, ...]:
@@ -131,12 +129,10 @@ def described(section: str) -> str:
 
 def shortfall(judgement: Judgement) -> float:
     """The sum of what the statements that do not hold miss the tolerance by, over power [-]."""
-    return sum(
-        abs(value - TOLERANCE) for value, held in zip(judgement.excess, judgement.holds, strict=True) if not held
-    )
+    return sum(abs(one - TOLERANCE) for one, held in zip(judgement.excess, judgement.holds, strict=True) if not held)
 
 
-def judged_readings(sections: tuple[str, ...] = SECTIONS) -> list[Judgement]:
+def judged_readings() -> list[Judgement]:
     """Every reading with these section data: first the one that most statements hold of, or that misses least."""
-    found = [judgement for pair in product(sections, LOSS_ON) for judgement in judge(*pair)]
+    found = [judgement for pair in product(SECTIONS, LOSS_ON) for judgement in judge(*pair)]
     return sorted(found, key=lambda judgement: (-sum(judgement.holds), shortfall(judgement)))

@@ -2,18 +2,16 @@
 
 import math
 import re
-import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import Enum
-from functools import cache
 from string import Formatter
 from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.support.assets import asset_path
+from rotor.support.assets import toml_asset
 from rotor.support.chart import Axis, Band, Chart, Line, Points, Series
 
 CurveStyle = Literal["line", "points", "dashed", "both", "band"]
@@ -132,10 +130,9 @@ def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]]
     return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows))
 
 
-@cache
 def thesis() -> dict[str, dict[str, Any]]:
     """What the thesis says, and what this project finds, by number: `assets/thesis.toml`; last `drawings`."""
-    return tomllib.loads(asset_path("thesis.toml").read_text(encoding="utf-8"))
+    return toml_asset("thesis.toml")
 
 
 def report(

@@ -12,13 +12,14 @@ from functools import lru_cache, update_wrapper
 from typing import Any, Generic, ParamSpec, TypeVar
 
 from rotor.design.blade import with_airfoils
-from rotor.design.design import Design
+from rotor.design.design import Design, with_models
 from rotor.design.twist import parse_twist
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import Concept, find_concept, nearest
 from rotor.optimisation.results import SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.support.processes import Processes, run_tasks
+from rotor.support.worker_process import Stop, Tell
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -49,10 +50,7 @@ Call = tuple[CachedFunction[..., Any], tuple[Any, ...]]
 
 
 def compute_ahead(
-    groups: Sequence[Sequence[Call]],
-    processes: int,
-    advance: Callable[[str], None] | None = None,
-    stop: Callable[[], bool] | None = None,
+    groups: Sequence[Sequence[Call]], processes: int, advance: Tell | None = None, stop: Stop | None = None
 ) -> bool:
     """Make the calls, each group in one process, one after the other; True when stopped before the end.
 
@@ -72,7 +70,7 @@ def compute_ahead(
         return run_tasks(pool, [(_work, (group,)) for group in waiting if group], keep, stop)
 
 
-def _work(calls: tuple[Call, ...], stop: Callable[[], bool] | None) -> Iterator[tuple[Call, Any]]:
+def _work(calls: tuple[Call, ...], stop: Stop | None) -> Iterator[tuple[Call, Any]]:
     for function, args in calls:
         if stop is not None and stop():
             return
@@ -103,8 +101,7 @@ _INFLOW = {THESIS_WAKE: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
 def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
     """A preset, or a preset with its inflow exchanged; mass [kg]."""
     design = make_design(preset=name.partition("-")[0], twist=twist, mu=mu, mass_kg=mass)
-    models = replace(design.models, inflow=_INFLOW.get(name, design.models.inflow))
-    return replace(design, models=models)
+    return with_models(design, inflow=_INFLOW.get(name, design.models.inflow))
 
 
 @lru_cache(maxsize=4096)

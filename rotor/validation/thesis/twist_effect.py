@@ -76,9 +76,7 @@ def figure_3_11() -> Report:
             rate: [solve_variant(name, f"linear:{rate}", 0.0, mass).require() for mass in MASSES] for rate in FIVE_RATES
         }
         loading = [solution.ct / sigma for solution in powers[0]]
-        least = [
-            min(row) for row in zip(*([solution.cp for solution in powers[rate]] for rate in FIVE_RATES), strict=True)
-        ]
+        least = [min(row) for row in zip(*([one.cp for one in powers[rate]] for rate in FIVE_RATES), strict=True)]
         title = f"{name} preset"
         panels += [
             panel(title, "C_T/σ", "C_P", _five(loading, lambda rate, k, of=powers: of[rate][k].cp)),
@@ -176,8 +174,7 @@ def slower_kw(rate: float, mu: float) -> float:
 
     NaN where so much of the disk is stalled that there is none.
     """
-    design = make_design(twist=f"linear:{rate:g}", mu=100.0 * mu / SLOWER, rotor_speed_percent=SLOWER)
-    solution = solve(design)
+    solution = solve(make_design(twist=f"linear:{rate:g}", mu=100.0 * mu / SLOWER, rotor_speed_percent=SLOWER))
     return solution.power.main_rotor / 1e3 if solution.converged else math.nan
 
 
@@ -186,10 +183,8 @@ def figure_3_15() -> Report:
     best = [best_of_five("flight", mu) for mu in FULL]
     flown = tuple(mu for mu in FULL if all(math.isfinite(slower_kw(rate, mu)) for rate in FIVE_RATES))
     slow = [min(FIVE_RATES, key=lambda rate, mu=mu: slower_kw(rate, mu)) for mu in flown]
-    gain = {
-        mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", saving, mu)
-        for mu, rate, saving in zip(flown, slow, best, strict=False)
-    }
+    rates = zip(flown, slow, best, strict=False)
+    gain = {mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", saving, mu) for mu, rate, saving in rates}
     beyond = "" if flown == FULL else f" beyond µ {flown[-1]:g} too much of the disk is stalled,"
     spread = [max(_percent("flight", rate, mu) for rate in FIVE_RATES) for mu in FULL]
     return report(
@@ -232,8 +227,7 @@ def _neighbours(mu: float) -> str:
 
 def _five(x: Sequence[float], value: Callable[[int, int], float]) -> tuple[Series, ...]:
     """A curve for each of the five twists; `value` of a twist at a place in x."""
-    places = range(len(x))
-    return tuple(curve(f"{rate}°", x, [value(rate, k) for k in places]) for rate in FIVE_RATES)
+    return tuple(curve(f"{rate}°", x, [value(rate, k) for k in range(len(x))]) for rate in FIVE_RATES)
 
 
 def best_of_five(name: str, mu: float) -> int:
@@ -302,10 +296,8 @@ def _speeds(
 
 def _path(values: list[int], speeds: tuple[float, ...]) -> str:
     """`−12°, −8° from µ 0.09`."""
-    parts: list[str] = [f"{values[0]}°"]
-    for before, value, mu in zip(values, values[1:], speeds[1:], strict=False):
-        if value != before:
-            parts.append(f"{value}° from µ {mu:g}")
+    steps = zip(values, values[1:], speeds[1:], strict=False)
+    parts = [f"{values[0]}°", *(f"{value}° from µ {mu:g}" for before, value, mu in steps if value != before)]
     return ", ".join(parts)
 
 

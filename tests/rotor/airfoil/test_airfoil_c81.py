@@ -63,7 +63,7 @@ def test_bundled_deck_is_written_back_byte_by_byte(name: str) -> None:
     ("change", "words"),
     [
         (("-0.3880-0.3880\n 180.00", "-0.38x0-0.3880\n 180.00"), "line 3: '-0.38x0' is not a number"),
-        ((" 180.000.01234", "-180.000.02234"), "line 7: -180 deg again, with other values than in line 6: keep one"),
+        ((" 180.000.01234", "-180.000.02234"), "line 7: -180 deg again, unlike line 6: keep one"),
         (("0.01234", "-.01234"), "line 6: a cd at -180 deg is not positive"),
         (("  0.300  0.400", "  0.400  0.300"), "line 2: the Mach numbers of cl do not increase"),
         (("-0.3880-0.3880\n", "-0.3880-0.3880 0.1000\n"), "line 3: more than 2 values"),

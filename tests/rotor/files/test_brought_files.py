@@ -174,7 +174,7 @@ def wrong(column: int, value: float) -> str:
     [
         (kept(np.abs(POLAR.alpha_deg) >= 9.0), "Mach 0.3 has no rows between -9 and 9 deg: run XFOIL there again"),
         (kept((POLAR.alpha_deg < 9.0) | (POLAR.alpha_deg > 13.0)), "smaller steps of ASEQ, or remove those beyond"),
-        (XFOIL + "  18 0.7 0.2 0 0\n", f"line {LINES + 1}: 18 deg again, with other values than in line {LINES}"),
+        (XFOIL + "  18 0.7 0.2 0 0\n", f"line {LINES + 1}: 18 deg again, unlike line {LINES}"),
         (XFOIL.replace("number fixed  ", "number ~ 1/sqrt(CL)  "), "a.txt: its Reynolds number changes with lift"),
         (f"Mach 0.3 Re 500\nalpha cl cd cm\n{table(BLANKS)}", "Reynolds number 500 is not a blade's: give it in full"),
         (f"alpha cl cd stall margin cm\n{table(BLANKS)}", "line 1: the heading names 6 columns, but line 2 has 4"),

@@ -217,7 +217,7 @@ def test_names_stay_inside_the_folder(name: str, tmp_path: Path):
     (folder / "link.c81").symlink_to(tmp_path / "mine.c81")
     named = str(tmp_path / "mine.c81") if name == "ABSOLUTE" else name
     (folder / "my.toml").write_text(OUTSIDE.replace("NAME", named), encoding="utf-8")
-    with pytest.raises(ValueError, match=r"outside its folder: copy it there, or allow it with --allow-outside"):
+    with pytest.raises(ValueError, match=r"outside its folder: copy it there, or give --allow-outside"):
         load_rotor(folder / "my.toml")
     assert load_rotor(folder / "my.toml", allow_outside=True).rotor.blade.own_sections[0].name == "mine"
 
