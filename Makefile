@@ -82,7 +82,7 @@ format: setup-dev     ## repair formatting and lint
 bench: setup-dev      ## time the solver beside its targets; ARGS="--against DIR" beside another checkout too; --page writes docs/measured.md
 	$(BIN)/python -m tests.tools.bench $(ARGS)
 
-docs: setup-dev       ## build the documentation site into dist/docs; it opens from disk
+docs: setup-dev $(WARM) ## build the documentation site into dist/docs; it opens from disk
 	@rm -rf dist/docs dist/.doctrees docs/_made
 	$(BIN)/python -m sphinx -W --keep-going -b html -d dist/.doctrees docs dist/docs
 	@echo "dist/docs/index.html"

@@ -1,6 +1,7 @@
 """What the browser tests share: one server for a process, since another costs more than a test; a page for a file."""
 
 from collections.abc import Iterator
+from functools import partial
 from typing import cast
 
 import pytest
@@ -9,6 +10,8 @@ from watched import COARSE, SMALL, Visit, Watched, opened
 
 from explorer.app import App
 from explorer.model.inputs import OPENING, Inputs
+from explorer.widgets.optimise import map_panel
+from explorer.workers.solver import MapTask
 
 
 def pytest_itemcollected(item: pytest.Item) -> None:
@@ -18,8 +21,11 @@ def pytest_itemcollected(item: pytest.Item) -> None:
 
 @pytest.fixture(scope="session")
 def server() -> Iterator[App]:
+    """Its maps of power have 9 × 9 points, coarse and then fine as those of 17 × 17."""
     server = App("127.0.0.1", 0)
-    yield server
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(map_panel, "MapTask", partial(MapTask, steps=(4, 8)))
+        yield server
     server.stop()
 
 

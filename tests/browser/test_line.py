@@ -3,14 +3,20 @@
 import re
 
 import pytest
-from watched import LARGE, Visit, Watched
+from watched import LARGE, MEDIUM, Visit, Watched
 
-SIZES = (LARGE, (1280, 720), (812, 734), (390, 844), (844, 390))
-FITS = """() => [document.querySelector('.rxf-line'), document.querySelector('canvas')].map(e => {
-    const {left, right, top, bottom} = e.getBoundingClientRect(), style = getComputedStyle(e);
-    const rows = (e.clientHeight - 2 * parseFloat(style.paddingTop)) / parseFloat(style.lineHeight);
-    return [left, right, top, bottom, e.scrollWidth - e.clientWidth, Math.round(rows)];
-})"""
+WINDOWS = {"desk": [LARGE, MEDIUM], "sheet": [(390, 844), (844, 390), (812, 734)]}
+"""Sizes of one page; its numbers are dragged at the first."""
+FITS = """name => {
+    const {left, width, top, height} = document.querySelector(name).getBoundingClientRect();
+    const met = document.elementFromPoint(left + width / 2, top + height / 2)?.closest('[data-slide]')?.dataset.slide;
+    return [...[document.querySelector('.rxf-line'), document.querySelector('canvas')].map(e => {
+        const {left, right, top, bottom} = e.getBoundingClientRect(), style = getComputedStyle(e);
+        const rows = (e.clientHeight - 2 * parseFloat(style.paddingTop)) / parseFloat(style.lineHeight);
+        return [left, right, top, bottom, e.scrollWidth - e.clientWidth, Math.round(rows)];
+    }), met];
+}"""
+"""Boxes of line and canvas, and which number a pointer meets in the middle of this one."""
 
 
 def numbers(watched: Watched) -> dict[str, list[str | None]]:
@@ -21,9 +27,19 @@ def numbers(watched: Watched) -> dict[str, list[str | None]]:
     )
 
 
-@pytest.mark.parametrize("size", SIZES, ids=str)
-def test_numbers_of_the_line_move_their_sliders_in_every_mode(visit: Visit, size: tuple[int, int]):
-    watched = visit(size=size)
+def fits(watched: Watched, sizes: list[tuple[int, int]], dragged: str) -> None:
+    """At each size the line has the width of the window, two rows at most and the scene below it."""
+    for width, height in reversed(sizes):
+        watched.page.set_viewport_size({"width": width, "height": height})
+        box, canvas, met = watched.at_rest(lambda: watched.page.evaluate(FITS, f"[data-slide='{dragged}']"))
+        assert (box[0], box[1], box[4], abs(canvas[2] - box[3]) < 2) == (0, width, 0, True), (width, height)
+        assert box[5] <= 2, (width, height)
+        assert met == dragged, (width, height)
+
+
+@pytest.mark.parametrize("sizes", WINDOWS.values(), ids=WINDOWS)
+def test_numbers_of_the_line_move_their_sliders_in_every_mode(visit: Visit, sizes: list[tuple[int, int]]):
+    watched = visit(size=sizes[0])
     page = watched.page
     watched.answered()
     as_built = watched.text("line")
@@ -49,16 +65,15 @@ def test_numbers_of_the_line_move_their_sliders_in_every_mode(visit: Visit, size
         x, y = watched.middle(name)
         watched.hold(x, y)
         page.mouse.move(x + 40, y, steps=4)
-        page.wait_for_timeout(1500)
+        if place == "explore":
+            page.wait_for_timeout(1500)
         page.mouse.move(x + 120, y, steps=4)
         page.mouse.up()
         watched.answered()
         after = float(numbers(watched)[dragged][1] or 0.0)
         assert after > float(before or 0.0)
         assert watched.text("total-power") != power
-        box, canvas = watched.at_rest(lambda: page.evaluate(FITS))
-        assert (box[0], box[1], box[4], abs(canvas[2] - box[3]) < 2) == (0, size[0], 0, True)
-        assert box[5] <= 2
+        fits(watched, sizes, dragged)
         label = {"built_outer": "Δ outboard", "mass_t": "Mass", "drive 0": "Voltage"}[dragged]
         if place != "optimise":
             assert watched.number(label) == pytest.approx(after)

@@ -4,9 +4,9 @@ What is hidden does not follow the page. One page reads all its panels, changes 
 reads them again; the other opens the link of the changed design, and has shown no other.
 """
 
-import gc
 import re
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from playwright.sync_api import Browser
@@ -43,6 +43,8 @@ READ = """name => {
 COURSE = re.compile(r"[\d.]+ ms|10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+|\d+ iterations?")
 """What a solve took from where it began."""
 Readings = dict[tuple[str, str], list[str]]
+MADE: list[PoolAnswers] = []
+"""Of pages that were opened since."""
 
 
 class Rest:
@@ -61,7 +63,7 @@ class Rest:
     @staticmethod
     def _answers() -> list[PoolAnswers]:
         """Those that work; a panel has its own from its first question on."""
-        return [one for one in gc.get_objects() if isinstance(one, PoolAnswers) and not one._stopped and works(one)]
+        return [one for one in MADE if not one._stopped and works(one)]
 
 
 def works(answers: PoolAnswers) -> bool:
@@ -116,6 +118,13 @@ def readings(
 ) -> tuple[Readings, Readings, Readings, Readings]:
     """Before, after a change and back, after the change; of the page that opened with the change."""
     monkeypatch.setattr(actuator_inputs, "actuators", tuple)  # The chosen one alone is judged.
+    made = PoolAnswers.__init__
+
+    def noted(one: PoolAnswers, *given: Any) -> None:
+        made(one, *given)
+        MADE.append(one)
+
+    monkeypatch.setattr(PoolAnswers, "__init__", noted)
     watched = opened(browser, app.address, size=LARGE)
     watched.quiet()
     rest = Rest(watched)
@@ -140,6 +149,7 @@ def readings(
     fresh.quiet()
     new = read(fresh, Rest(fresh))
     assert complaints + fresh.complaints == []
+    assert MADE
     fresh.close()
     return before, back, after, new
 

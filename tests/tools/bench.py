@@ -1,6 +1,6 @@
 """Processor times of evaluations, trims, searches and studies, beside their targets.
 
-`python -m tests.tools.bench [--json] [--against DIR | --release | --page]`
+`python -m tests.tools.bench [--json] [--against DIR | --release | --page | --brief]`
 """
 
 import argparse
@@ -99,9 +99,16 @@ def main(argv: list[str] | None = None) -> int:
     other.add_argument("--against", type=Path, metavar="DIR", help="time another checkout too, and print the ratios")
     other.add_argument("--release", action="store_true", help="time the last release too")
     other.add_argument("--page", action="store_true", help="write docs/measured.md, on an idle machine")
+    other.add_argument(
+        "--brief", action="store_true", help="only the models of the page, in seconds: how fast it is here"
+    )
     args = parser.parse_args(argv)
     if args.page:
         measured.write(_least)
+        return 0
+    if args.brief:
+        for name, value in measure({"": _CASES[""]}, 5).items():
+            print(_line(name, value, "10.3f", TARGETS_MS.get(name), "≤"))
         return 0
     with TemporaryDirectory(prefix="release-") as room:
         answer = _timed(unpacked_release(Path(room)) if args.release else args.against)
@@ -232,10 +239,10 @@ _CASES: dict[str, dict[str, Any]] = {
 """Models, by what a figure is called after."""
 
 
-def measure() -> dict[str, float]:
+def measure(cases: dict[str, dict[str, Any]] = _CASES, runs: int = 15) -> dict[str, float]:
     """Figures [ms] by name."""
     figures: dict[str, float] = {}
-    for beside, models in _CASES.items():
+    for beside, models in cases.items():
         designs = _designs(0.0, "linear:-16", models)
         nearby = _designs(0.002, "linear:-15.5", models)  # One slider step away.
         solutions = [solve(design) for design in designs]
@@ -244,16 +251,16 @@ def measure() -> dict[str, float]:
         figures[f"{beside}evaluation"] = _mean(
             lambda point: evaluate(point.system, point.system.grid, point.x, slopes=True, flow=True), points, 50
         )
-        figures[f"{beside}cold"] = _mean(lambda design: solve(_new(design)), designs, 15)
+        figures[f"{beside}cold"] = _mean(lambda design: solve(_new(design)), designs, runs)
         for solution in solutions:
             power_gradient(solution)  # As of a design that the page shows.
         pairs = list(zip(nearby, solutions, strict=True))
-        figures[f"{beside}warm"] = _mean(lambda pair: solve(*pair), pairs, 15)
-        figures[f"{beside}warm, new speed"] = _mean(lambda pair: solve(_new(pair[0]), pair[1]), pairs, 15)
+        figures[f"{beside}warm"] = _mean(lambda pair: solve(*pair), pairs, runs)
+        figures[f"{beside}warm, new speed"] = _mean(lambda pair: solve(_new(pair[0]), pair[1]), pairs, runs)
         figures[f"{beside}moving"] = statistics.fmean(map(_moving, solutions))
-        figures[f"{beside}gradient"] = statistics.fmean(starmap(_gradient, pairs))
-        figures[f"{beside}doubt"] = _mean(power_changes, [analyse(design).adjoint for design in designs], 15)
-    figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), 15)
+        figures[f"{beside}gradient"] = statistics.fmean(starmap(partial(_gradient, runs), pairs))
+        figures[f"{beside}doubt"] = _mean(power_changes, [analyse(design).adjoint for design in designs], runs)
+    figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), runs)
     return figures
 
 
@@ -301,10 +308,10 @@ def _designs(faster: float, twist: str, models: dict[str, Any]) -> list[Design]:
     return [replace(design, models=replace(design.models, **models)) for design in designs]
 
 
-def _gradient(nearby: Design, start: Solution) -> float:
+def _gradient(runs: int, nearby: Design, start: Solution) -> float:
     """The gradient of a new trim [ms], its derivatives included, which the next trim then uses."""
     times: list[float] = []
-    for _ in range(16):
+    for _ in range(runs + 1):
         trim = analyse(nearby, start)
         begin = time.process_time()
         power_gradient(trim)
