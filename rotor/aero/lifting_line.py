@@ -276,15 +276,14 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     share[0] = 0.5
     parts.across(old[:, :-1], rows[4], SHED_CORE**4, (np.r_[near, k[1:] - 1], k + 1), share)
     zero = np.zeros(len(oldest) - 1, dtype=np.int64)
-    first_only = np.broadcast_to([1.0, 0.0], (len(zero), 2))
-    parts.trailers(last, rows[5], core[-1:], (zero, zero), first_only)
+    parts.trailers(last, rows[5], core[-1:], (zero, zero), np.broadcast_to([1.0, 0.0], (len(zero), 2)))
     return parts.wake(rows, _strip_weights(line).T.astype(np.float32))
 
 
 class _Parts:
     def __init__(self, azimuths: int) -> None:
         self._azimuths = azimuths
-        self._ends, self._core = list[Array](), list[Array]()
+        self._ends, self._core = list[Singles](), list[Array]()
         self._places, self._shares = list[Integers](), list[Array]()
 
     def trailers(self, nodes: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
@@ -297,25 +296,17 @@ class _Parts:
 
     def _add(self, a: Array, b: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
         old, wide = a.shape[1:3]
-        self._ends.append(np.concatenate([a, b], axis=-1).reshape(self._azimuths, -1, 6))
+        self._ends.append(np.concatenate([a, b], axis=-1, dtype=np.float32).reshape(self._azimuths, -1, 6))
         self._core.append(np.broadcast_to(core, (old, wide)).ravel())
-        places = np.empty((old, wide, 3), dtype=np.int64)
-        places[..., 0] = row + np.arange(wide)
-        places[..., 1], places[..., 2] = np.asarray(ages[0])[:, None], np.asarray(ages[1])[:, None]
-        self._places.append(places.reshape(-1, 3))
+        ages = (np.repeat(each, wide) for each in ages)
+        self._places.append(np.column_stack([np.tile(np.arange(row, row + int(wide)), old), *ages]))
         self._shares.append(np.repeat(shares, wide, axis=0))
 
     def wake(self, rows: tuple[int, ...], strips: Singles) -> WakeLines:
         """All of them."""
-        single = np.float32
-        return WakeLines(
-            np.concatenate(self._ends, axis=1).astype(single),
-            np.concatenate(self._core).astype(single),
-            np.concatenate(self._places),
-            np.concatenate(self._shares).astype(single),
-            rows,
-            strips,
-        )
+        ends, places = np.concatenate(self._ends, axis=1), np.concatenate(self._places)
+        core, shares = (np.concatenate(each).astype(np.float32) for each in (self._core, self._shares))
+        return WakeLines(ends, core, places, shares, rows, strips)
 
 
 def _by_panels(line: LiftingLine, wake: WakeLines, rows: Singles) -> Singles:
@@ -327,14 +318,14 @@ def _by_panels(line: LiftingLine, wake: WakeLines, rows: Singles) -> Singles:
     return panels + (wake.strips @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
 
 
-def influence(line: LiftingLine, course: WakeCourse) -> Array:
+def influence(line: LiftingLine, course: WakeCourse) -> Singles:
     """A, (points, points) with points in the order (panel, azimuth): row target, column source.
 
     Downwash over ΩR along the blade's normal, by circulation over ΩR².
     """
     n, m, blades = line.panels, line.azimuths, line.blades
     wake, young = build_wake(line, course, line.psi), own_core(line, course)
-    out = np.empty((n, m, n, m))
+    out = np.empty((n, m, n, m), dtype=np.float32)
     for position in range(m // blades):
         at = position + m // blades * np.arange(blades)
         targets = _on_blades(line, course, line.psi[at])

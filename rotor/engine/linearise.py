@@ -184,6 +184,11 @@ class Point:
         slopes.data = np.concatenate([factor * z[j], factor * z[i]])[order]
         return slopes
 
+    @cached_property
+    def residual_slopes(self) -> tuple[Array, Array]:
+        """∂R by the measures, and by states and derived atoms at the same measures, (equations, …)."""
+        return self.system.structure.residual.slopes(self.z, self.q, self.system.structure.first_state)
+
     @property
     def forgetful(self) -> "Point":
         """The point without the lags of its section, for derivatives that need not be exact."""
@@ -242,6 +247,14 @@ def with_data(point: Point, data: Any) -> Point:
     """R(x) with other section data, and the flow at the sections; channels and slopes of the shapes stay the same."""
     at = point.x, point.z, point.by_roots, point.phi
     return _with_forces(point.system, replace(point.grid, data=data), at, point.channels, flow=True)
+
+
+def with_numbers(point: Point, system: System) -> Point:
+    """R(x) with other numbers of the design, which its channels do not have: all forces stay."""
+    x, z, residual = point.x.copy(), point.z.copy(), point.residual.copy()
+    x[: len(system.numbers)] = z[: len(system.numbers)] = system.numbers
+    residual[: len(system.structure.equations)] = system.structure.residual.value(z, point.q)
+    return replace(point, system=system, x=x, z=z, residual=residual)
 
 
 _At = tuple[Array, Array, Array, Array]
@@ -465,13 +478,12 @@ def transposed(point: Point, v: Array, measure: MeasureSlopes | None = None) -> 
 
     (equations,), and (channels, elements, azimuths). `point` has slopes.
     """
-    structure, waves, z, q, psi = point.system.structure, point.grid.waves, point.z, point.q, point.system.shapes.psi
-    measure, nodes, first = measure or MeasureSlopes(), point.system.nodes, structure.first_state
-    v, on_nodes = np.split(v, [len(structure.equations)])
-    on_q, on_z = structure.residual.transposed(v, z, q)
+    structure, waves, psi = point.system.structure, point.grid.waves, point.system.shapes.psi
+    measure, nodes, size = measure or MeasureSlopes(), point.system.nodes, len(structure.equations)
+    on_q, on_z = (v[:size] @ slopes for slopes in point.residual_slopes)
     if measure.terms is not None:
-        more_q, more_z = measure.terms.transposed(np.ones(measure.terms.rows), z, q)
-        on_q, on_z = on_q + more_q, on_z + more_z
+        more = measure.terms.slopes(point.z, point.q, structure.first_state)
+        on_q, on_z = on_q + more[0].sum(axis=0), on_z + more[1].sum(axis=0)
     spread = np.zeros((len(psi), structure.waves))
     spread.ravel()[structure.measure_places] = on_q[1:]
     forces = np.zeros_like(point.forces)
@@ -479,7 +491,7 @@ def transposed(point: Point, v: Array, measure: MeasureSlopes | None = None) -> 
     for force, weights in measure.forces.items():
         forces[force] += weights
     if nodes is not None:
-        forces[nodes.force] -= on_nodes.reshape(forces.shape[1:])
+        forces[nodes.force] -= v[size:].reshape(forces.shape[1:])
     channels = np.zeros_like(point.channels) if point.memory is None else point.memory.transposed(forces)
     for channel, weights in measure.channels.items():
         channels[channel] += weights
@@ -492,9 +504,9 @@ def transposed(point: Point, v: Array, measure: MeasureSlopes | None = None) -> 
     for channel, names, weights in measure.parts:
         rows = structure.rows_of(channel, names)
         around[rows] += point.phi[rows] @ weights
-    on_z[first:] += point.coefficient_slopes @ (around @ waves.at.T).ravel()[structure.coefficient_places]
-    by_free = _by_free(structure, on_z[None, first:], point.by_roots)[0]
-    if nodes is not None:
-        on_field = channels[nodes.channel] + (0.0 if measure.nodes is None else measure.nodes)
-        by_free = np.concatenate([by_free, on_nodes + nodes.transposed(on_field.ravel())])
-    return by_free, channels
+    on_z += point.coefficient_slopes @ (around @ waves.at.T).ravel()[structure.coefficient_places]
+    on_states = _by_free(structure, on_z[None], point.by_roots)[0]
+    if nodes is None:
+        return on_states, channels
+    on_field = channels[nodes.channel] + (0.0 if measure.nodes is None else measure.nodes)
+    return np.concatenate([on_states, v[size:] + nodes.transposed(on_field.ravel())]), channels

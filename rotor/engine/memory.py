@@ -204,21 +204,29 @@ def _remembered(lags: Any, inputs: Any, out: Any) -> None:
 
 
 @_compile
-def _transposed(lags: Any, weights: Any, out: Any) -> None:
-    """Nᵀ times weights, (outputs + 1, elements, azimuths), (inputs, elements, azimuths)."""
-    fine = lags.decays.shape[2]
-    z = np.empty((len(lags.decaying), fine + 1))
+def _transposed(left: Any, lags: Any, right: Any, forces: Any, out: Any) -> None:
+    """(L N R)ᵀ times weights on the forces, (forces, elements, azimuths), (channels, elements, azimuths)."""
+    fine, m = lags.decays.shape[2], forces.shape[2]
+    z, steps = np.empty((len(lags.decaying), fine + 1)), fine // m
+    weights, inputs = np.empty((OUTPUTS + 1, m)), np.empty((INPUTS, m))
     for e in range(out.shape[1]):
-        steps = fine // out.shape[2]
-        z[:] = 0.0
+        z[:], weights[:] = 0.0, 0.0
+        for k in range(OUTPUTS + 1):
+            for o in range(len(forces)):
+                for j in range(m):
+                    weights[k, j] += left[o, k, e, j] * forces[o, e, j]
         for k in range(OUTPUTS):
-            onto_finer(weights[k, e], steps, z[INPUTS + k])
+            onto_finer(weights[k], steps, z[INPUTS + k])
             z[INPUTS + k, fine] = 0.0
         _back_along_links(lags, e, z)
         for k in range(INPUTS):
             z[k, 0] += z[k, fine]
-            onto_coarser(z[k], steps, out[k, e])
-        out[0, e] = lags.share[e] * out[0, e] + weights[OUTPUTS, e]
+            onto_coarser(z[k], steps, inputs[k])
+        for j in range(m):
+            inputs[0, j] = lags.share[e, j] * inputs[0, j] + weights[OUTPUTS, j]
+        for c in range(len(out)):
+            for j in range(m):
+                out[c, e, j] = inputs[0, j] * right[0, c, e, j] + inputs[1, j] * right[1, c, e, j]
 
 
 @_compile
@@ -284,9 +292,9 @@ class LagFactors:
 
     def transposed(self, forces: Array) -> Array:
         """From weights on the forces, (forces, elements, azimuths), to the channels, (channels, elements, azimuths)."""
-        weights, on_inputs = np.einsum("okej,oej->kej", self.left, forces), np.empty((INPUTS, *forces.shape[1:]))
-        _transposed(self.lags, weights, on_inputs)
-        return np.einsum("lej,lcej->cej", on_inputs, self.right)
+        out = np.empty(self.right.shape[1:])
+        _transposed(self.left, self.lags, self.right, forces, out)
+        return out
 
     @cached_property
     def used(self) -> Integers:

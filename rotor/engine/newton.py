@@ -31,20 +31,17 @@ _HOPED = 0.1
 """Part of the residual that a first step with kept factors is expected to leave. Our choice."""
 MOST_SLOW_STEPS = 4
 """Steps that hardly reduce the residual before the iteration ends."""
-
-
 _MOST_RISES = 3
 """Steps that raise the residual before the iteration ends. Our choice."""
 _LEAST_PART = 1.0 / 64.0
 """Part of a step below which it is not divided further. Our choice."""
-
 _MOST_FORGETFUL = 2
 """How often a solution evaluates derivatives without what forces remember: to form these takes as long as a third of
 all the rest, and they spare steps near deep stall only. Our choice."""
 _MOST_PRODUCTS = 40
 """Products with a Jacobian after which factors nearby do not serve for its transposed."""
-KRYLOV_TOLERANCE = 1e-10
-"""Residual over the right side at which such a solution ends. Our choice."""
+KRYLOV_TOLERANCE = 1e-8
+"""Residual over the right side at which such a solution ends: gradients are within 1e-7 (tested). Our choice."""
 _SINGLE_PRECISION_FROM = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
 
@@ -62,8 +59,7 @@ class Factors:
     def of(cls, point: Point) -> "Factors":
         """Factors of the Jacobian at a point with slopes."""
         matrix = jacobian(point)[0]
-        scaled = matrix / point.system.tolerance[:, None]
-        return cls.of_matrix(matrix, np.einsum("ij,ij->j", scaled, scaled))
+        return cls.of_matrix(matrix, point.system.tolerance**-2.0 @ matrix**2)
 
     @classmethod
     def of_matrix(cls, matrix: Array, weight: Array | None = None) -> "Factors":

@@ -102,15 +102,6 @@ class Terms:
         row = np.concatenate([self.row, other.row + self.rows])
         return Terms(row, *(np.concatenate(pair) for pair in pairs), rows=self.rows + other.rows)
 
-    def transposed(self, v: Array, z: Array, q: Array) -> tuple[Array, Array]:
-        """`slopes` times weights on the rows from the left, (rows,) → (measures,), (atoms,)."""
-        weights = self.factor * z[self.number] * v[self.row]
-        first, second, value = z[self.first], z[self.second], q[self.measure]
-        by_z = summed(self.first, weights * second * value, len(z)) + summed(
-            self.second, weights * first * value, len(z)
-        )
-        return summed(self.measure, weights * first * second, len(q)), by_z
-
 
 NO_TERMS = Terms.of((), 0)
 """No rows."""

@@ -1,8 +1,8 @@
 """One number of bytes for all caches of this process: what was used longest ago goes first, whichever cache has it.
 
 A result counts with its arguments: their arrays and long texts, those that several results hold once, and an estimate
-for all other objects. Results grow where they have cached properties, so each is measured again after its 2nd, 4th,
-8th, … use.
+for all other objects. Results grow where they have cached properties, so each is measured again after its 2nd, 8th,
+32nd, … use.
 """
 
 import gc
@@ -30,6 +30,7 @@ _LONG_TEXT = 1000
 """Characters of a text from which it is counted by itself."""
 _OBJECT_BYTES = 64
 """[bytes] of any other object, an estimate."""
+_MEASURED = frozenset((1, *(2 * 4**k for k in range(16))))
 _NUMBERS = frozenset((float, int, bool, complex, type(None)))
 
 
@@ -98,7 +99,7 @@ class _Kept:
             self._results[result] = None
             self._results.move_to_end(result)
             result.uses += 1
-            if result.uses & (result.uses - 1) == 0:
+            if result.uses in _MEASURED:
                 self._count(result, -1)
                 result.measure()
                 self._count(result, 1)

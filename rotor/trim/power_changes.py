@@ -4,10 +4,10 @@ At a trim x of a design, with the multipliers a of power, Jᵀ a = ∂P/∂x, a 
 
     ΔP = P(d', x) − P(d, x) − a·[R(d', x) − R(d, x)]:
 
-one evaluation of its equations, no new trim. The course of the wake, and at low speed what hover adds, stay. Only
-another path of the wake has a trim x' of its own, because its change is not small. A few steps towards it suffice: with
-P(d', x') in place of P(d', x), and R as well, what is left of R counts to first order. Where that trim does not
-converge, the first order stands in the band by a name of its own.
+one evaluation of its equations, of their sums alone where the airframe differs, and no new trim. The course of the
+wake, and at low speed what hover adds, stay. Only another path of the wake has a trim x' of its own, because its change
+is not small. A few steps towards it suffice: with P(d', x') in place of P(d', x), and R as well, what is left of R
+counts to first order. Where that trim does not converge, the first order stands in the band by a name of its own.
 """
 
 from collections.abc import Callable, Mapping
@@ -22,7 +22,7 @@ from rotor.columns.flight import flight_system
 from rotor.columns.hover import hover_system
 from rotor.design.quantity import replaced
 from rotor.design.uncertain import uncertain_inputs
-from rotor.engine.linearise import evaluate, with_data
+from rotor.engine.linearise import evaluate, with_data, with_numbers
 from rotor.support.arrays import Array
 from rotor.trim.adjoint import Adjoint, tail_gain
 from rotor.trim.forward import course_of
@@ -99,9 +99,10 @@ class _PowerNearby:
             there = with_data(point, problem.grid_data(1))  # Only the section's own data are other.
             return self._difference(LinearisedTrim(problem, there))
         system = (hover_system if problem.design.hovering else flight_system)(problem)
-        x = point.x.copy()
-        x[: len(system.numbers)] = system.numbers
-        return self._difference(LinearisedTrim(problem, evaluate(system, system.grid, x, flow=True)))
+        there = with_numbers(point, system)
+        if problem.design.hovering or problem.design.fuselage == self.problem.design.fuselage:
+            there = evaluate(system, system.grid, there.x, flow=True)
+        return self._difference(LinearisedTrim(problem, there))
 
     def along_beddoes(self, part: float) -> Array | None:
         """The same [W] by a new trim with the wake moved by a part of the way to Beddoes' path; None without a trim."""

@@ -52,7 +52,7 @@ class LinesInWake:
     @fixed_property
     def matrix(self) -> Array:
         """A/D, (points, points)."""
-        return influence(self.line, self.course) / self.course.mass_flow
+        return influence(self.line, self.course).astype(np.float64) / self.course.mass_flow
 
     @property
     def mean_inflow(self) -> float:

@@ -120,7 +120,7 @@ def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]
 
     half_chord: of unsteady sections over R, (panels,), or empty.
     """
-    matrix = influence(line, course) / course.mass_flow
+    matrix = np.divide(influence(line, course), course.mass_flow, dtype=np.float64)
     if half_chord:
         blocks = matrix.reshape(line.panels, line.azimuths, line.panels, line.azimuths)
         panel = np.arange(line.panels)

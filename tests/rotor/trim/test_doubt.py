@@ -195,7 +195,7 @@ def test_the_path_of_the_wake_is_as_in_new_trims(mu: float, patch: Patch):
 
 @pytest.mark.parametrize("bending", [False, True])
 def test_a_band_takes_few_evaluations_and_no_factors(bending: bool, monkeypatch: pytest.MonkeyPatch):
-    """One for each input, and fewer than a warm trim for the path of the wake, with the factors of the gradient.
+    """One for each input of the rotor, fewer than a warm trim for the path of the wake, the factors of the gradient.
 
     The multipliers that tell parts of power apart take fewer products than those of the gradient, 3 to 5 where
     these take 5 to 9.
@@ -222,7 +222,7 @@ def test_a_band_takes_few_evaluations_and_no_factors(bending: bool, monkeypatch:
             patched.setattr("rotor.engine.newton.transposed", product)
             assert len(trim.power_changes) > 10
         print(f"mu {mu}: {len(evaluations)}, {len(products)}")
-        assert len(evaluations) <= 15  # 11 to 14
+        assert len(evaluations) <= 13  # 8 to 12
         assert 0 < len(products) <= 5
         evaluations.clear()
         products.clear()
