@@ -9,7 +9,7 @@ from explorer.charts import svg
 from explorer.charts.probe_measured import HEIGHT as CHART_HEIGHT
 from explorer.charts.probe_measured import lift_chart, with_indices
 from explorer.charts.svg import Point, chart_box
-from explorer.colours import NOW, THIS
+from explorer.colours import NOW
 from explorer.model.units import degrees, number
 from explorer.picture.element import FlowRegion, Probe, outline, sections_of, where
 from explorer.text.glossary import tip
@@ -20,7 +20,7 @@ from rotor.support.chart import drawn_chart
 from rotor.support.markup import Attribute, Content, Markup, group, tag
 
 WIDTH, HEIGHT = 312.0, 166.0
-LIFT, DRAG, ALPHA = THIS, NOW, "#099268"
+LIFT, DRAG, ALPHA = "var(--rx-accent)", NOW, "var(--rx-good)"
 OPENED = 3
 """How many times wider small angles are drawn on request."""
 _QUARTER: Point = (126.0, 82.0)

@@ -1,4 +1,4 @@
-// Text below 12 px, text with less contrast than AA asks for, and how far the page is wider than its window.
+// Text below 12 px but for indices, text with less contrast than AA asks for, and how far the page is wider than its window.
 () => {
   const small = [], faint = [], light = v => (v /= 255) <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4;
   const rgba = css => { const v = css.match(/[\d.]+/g).map(Number), k = css.startsWith('color(') ? 255 : 1; return [k * v[0], k * v[1], k * v[2], v[3] ?? 1]; };
@@ -18,7 +18,7 @@
   const all = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (all.nextNode()) {
     const words = all.currentNode.textContent.trim(), element = all.currentNode.parentElement;
-    if (!words || element.closest('script, style, noscript, title, desc, option, .mantine-Notification-root')) continue;
+    if (!words || element.closest('script, style, noscript, title, desc, option, sub, tspan[dy], .mantine-Notification-root')) continue;
     const box = element.getBoundingClientRect();
     if (!box.width || !box.height || !element.checkVisibility({opacityProperty: true, visibilityProperty: true})) continue;
     const style = getComputedStyle(element), svg = element.ownerSVGElement, turned = svg && element.getScreenCTM();

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from playwright.sync_api import Browser, Page
-from test_accessible import AXE, CHECK
+from test_accessible import AXE, CHECK, LEGIBLE
 from test_export import foreign, requests_of
 from watched import window
 
@@ -114,6 +114,7 @@ def test_it_fits_any_window_and_paper(page: Page, scheme: str):
     for width in (390, 812, 1500):
         page.set_viewport_size({"width": width, "height": 844})
         assert page.evaluate("() => document.documentElement.scrollWidth") == width
+        assert page.evaluate(f"({LEGIBLE})()")["small"] == []
     page.emulate_media(media="print")
     assert not page.get_by_role("button", name="As shared").is_visible()
     assert page.locator(".plan").is_visible()
