@@ -24,6 +24,7 @@ class FlightLeg:
     """[m/s], negative in descent."""
 
     def of(self, design: Design) -> Design:
+        """The design in the flight condition of this leg."""
         condition = replace(design.condition, advance_ratio=self.advance_ratio, climb_speed=self.climb_speed)
         return replace(design, condition=condition)
 

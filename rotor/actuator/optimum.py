@@ -63,6 +63,7 @@ class ConditionPair:
         return sum(share * value for share, value in zip(self.shares, values, strict=True))
 
     def designs(self, base: Design | None = None) -> tuple[Design, Design]:
+        """The design at both conditions."""
         base = base or self.design
         first, second = (
             replace(base, condition=replace(base.condition, advance_ratio=mu)) for mu in self.advance_ratios

@@ -59,6 +59,8 @@ class Placement:
 
 @dataclass(frozen=True)
 class HostBlade:
+    """The blade that carries the actuator."""
+
     kind: BladeKind = "retrofit"
     """`retrofit`: outside the skins of the existing blade; `new`: in the torsion skin of a new blade."""
     stiffness: float = 1.0
@@ -92,6 +94,8 @@ POINTS = 60
 
 @dataclass(frozen=True)
 class SectionSpec:
+    """Passive data of a section."""
+
     host: HostBlade
     chord: float
     """[m]"""

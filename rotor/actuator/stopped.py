@@ -18,6 +18,8 @@ from rotor.trim.solve import solve
 
 @dataclass(frozen=True)
 class TrimNumbers:
+    """The numbers of one trim."""
+
     twist: float
     """Twist of the tip relative to the root, built in as well [rad]."""
     power: float | None

@@ -25,6 +25,8 @@ COMPARED_CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 
 @dataclass(frozen=True)
 class ActuatorTable:
+    """A table as text."""
+
     title: str
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
@@ -101,6 +103,7 @@ def table_5_2(
 
 
 def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
+    """The table of several verdicts."""
     pair = verdicts[0].baseline.pair
     mu = " and ".join(f"{mu:g}" for mu in pair.advance_ratios)
     notes = (

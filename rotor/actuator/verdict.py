@@ -187,6 +187,7 @@ class Verdict:
 
     @property
     def broken(self) -> tuple[Limit, ...]:
+        """Limits that are not met."""
         return tuple(limit for limit in self.limits if not limit.ok)
 
     @property

@@ -36,6 +36,8 @@ BENDING = (E, GW, GV, MW, MV) = tuple(range(-5, 0))
 
 
 class BentData(NamedTuple):
+    """Data of a section that bends."""
+
     section: Any
     """Data of the section within."""
     coupling: Array
@@ -150,6 +152,7 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, place: Any, data
 
 @lru_cache(maxsize=8)
 def bending_interface(inner: SectionInterface) -> SectionInterface:
+    """The interface of a section on a blade that bends."""
     first, forces = inner.channels, inner.forces
     tilts, (kw, kv, b) = (first + SW + 5, first + SV + 5), (first + 5 + channel for channel in (KW, KV, B))
     moved = {channel for force, channel in inner.pairs if force in (FX, FZ, FR)}

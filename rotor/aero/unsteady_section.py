@@ -202,6 +202,7 @@ def _push_slopes(
 
 @lru_cache(maxsize=8)
 def unsteady_interface(inner: SectionInterface) -> SectionInterface:
+    """The interface of a section in unsteady attached flow."""
     first, channels = inner.channels, inner.channels + len(RATES)
     turned = sorted({force for force, channel in inner.pairs if channel == TH})
     new = [(force, channel) for force in turned for channel in (UT, UP, RATE) if (force, channel) not in inner.pairs]

@@ -177,6 +177,7 @@ def parse_c81(text: str, name: str = "deck") -> C81Deck:
 
 
 def read_c81(path: Path) -> C81Deck:
+    """The deck in the file `path`."""
     return parse_c81(path.read_text(encoding="utf-8"), path.name)
 
 

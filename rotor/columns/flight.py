@@ -296,6 +296,7 @@ def disk_sums(point: Point) -> DiskSums:
 
 
 def elements_of(problem: Problem, point: Point) -> BladeElements:
+    """The blade elements at a point that has the flow at the sections."""
     c, f, s, x = point.channels, point.forces, point.flow, point.x
     terms, torsion, structure = problem.inflow_terms, problem.torsion, point.system.structure
     state, disk, make = state_of(structure, x), problem.disk, point.system.make

@@ -6,6 +6,8 @@ from rotor.support.assets import toml_asset
 
 
 class Command(NamedTuple):
+    """One command."""
+
     adds: str
     """The function that adds its flags, in its file of this folder."""
     help: str

@@ -161,6 +161,7 @@ class FlightCondition:
 
     @property
     def numbers(self) -> dict[str, float]:
+        """The quantities of the condition by name."""
         return {name: getattr(self, row.field) for name, row in CONDITION.items()}
 
     @property

@@ -317,6 +317,7 @@ class Design:
 
     @property
     def numbers(self) -> dict[str, float]:
+        """The numbers of the table by name."""
         return {name: row.of(self) for name, row in quantities.NUMBERS.items()}
 
     @property

@@ -129,6 +129,7 @@ class Concept:
         return tuple(name for name, one in zip(self.inputs, self.parameters, strict=True) if not one.angular)
 
     def twist(self, values: Values) -> TwistLaw:
+        """The law."""
         law = self.law.of(*self._all(values))
         return law if self.base is None else SumTwist(self.base, law)
 

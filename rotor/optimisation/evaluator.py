@@ -56,6 +56,7 @@ class TrimHistory:
         return () if gap is None else gap[1]
 
     def add(self, rotor: Rotor, pitch: Array, measured: ObjectiveValue) -> TrimmedBlade:
+        """Keep what was trimmed."""
         blade = TrimmedBlade(rotor, pitch, replace(measured, trims=()))
         if measured.power is not None:
             self.all.append(blade)

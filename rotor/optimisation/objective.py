@@ -116,6 +116,8 @@ def hover_and_cruise(
 
 @dataclass(frozen=True, eq=False)
 class ObjectiveValue:
+    """An objective evaluated for a design."""
+
     power: float | None
     """Mean power [W], the total for the objective `vibration`; None when a condition did not trim."""
     trims: tuple[Analysis, ...]
@@ -133,6 +135,7 @@ class ObjectiveValue:
 
     @property
     def solutions(self) -> tuple[Solution, ...]:
+        """Those of `trims`."""
         return tuple(trim.solution for trim in self.trims)
 
     @property

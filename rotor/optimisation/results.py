@@ -132,6 +132,7 @@ class Optimum:
 
     @property
     def saving_percent(self) -> float | None:
+        """`saving` in per cent."""
         return None if self.saving is None else 100.0 * self.saving
 
     @property

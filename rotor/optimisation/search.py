@@ -138,6 +138,7 @@ class _Run:
 
     @property
     def best(self) -> Evaluation | None:
+        """The best end of a descent."""
         return min((end for end, _ in self.groups), key=lambda end: end.cost, default=None)
 
     def descend_from(self, start: int, x: Array) -> None:

@@ -80,6 +80,7 @@ class ClusterWatch:
             raise ExecutorLost(missing)
 
     def came(self) -> None:
+        """A chunk came from a worker."""
         self._had, self._since = True, None
 
     def _missing(self) -> str:

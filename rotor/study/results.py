@@ -38,6 +38,7 @@ class Results:
 
     @property
     def rows(self) -> int:
+        """Number of rows."""
         return len(self.columns["point"])
 
     @property
@@ -60,6 +61,7 @@ class Results:
         return str(self.about.get("units", {}).get(column, ""))
 
     def numeric(self, column: str) -> bool:
+        """Whether a column holds numbers."""
         return self.columns[column].dtype == np.float64
 
     @property

@@ -185,6 +185,8 @@ def _snake(unit: Array) -> Ints:
 
 @dataclass(frozen=True)
 class OptimumSettings:
+    """Settings of the search at each point."""
+
     starts: int = 3
     """One of them begins at the optimum of the point before."""
     seed: int = 0
@@ -254,6 +256,7 @@ class Study:
 
     @property
     def concepts(self) -> tuple[str, ...]:
+        """The twist concepts that occur."""
         values = {name: (value,) for name, value in self.given} | {axis.name: axis.values for axis in self.points.axes}
         return tuple(map(str, values.get("concept", ())))
 

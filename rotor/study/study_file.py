@@ -244,6 +244,8 @@ class Reader:
 
 @dataclass(frozen=True)
 class StudyFile:
+    """A study and the text it was read from."""
+
     study: Study
     text: str
     path: str

@@ -131,6 +131,7 @@ _kept = _Kept()
 
 
 def bytes_kept() -> int:
+    """Bytes of all results that are kept."""
     return _kept.bytes
 
 

@@ -179,6 +179,7 @@ class Chart:
         return [(value, tick_text(value, scale.log) + scale.unit) for value in places]
 
     def colours(self) -> list[str]:
+        """Colour of each series."""
         colours, turn = list[str](), 0
         for series in self.series:
             turn += series.colour is None

@@ -203,6 +203,7 @@ def compiling() -> str:
 
 
 def has_compiled() -> bool:
+    """Whether this process has compiled anything."""
     return _watch.began
 
 

@@ -27,6 +27,7 @@ def drawing_module(name: str = "matplotlib.figure") -> Any:
 
 
 def new_axes(**options: Any) -> Any:
+    """Axes in a new pyplot figure."""
     return drawing_module("matplotlib.pyplot").subplots(**options)[1]
 
 

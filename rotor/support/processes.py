@@ -85,6 +85,8 @@ class JobStarted:
 
 @dataclass(frozen=True)
 class JobProgress:
+    """What the task reported."""
+
     item: Any
 
 

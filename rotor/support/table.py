@@ -50,12 +50,14 @@ class Table:
         return "\n".join(lines)
 
     def html(self) -> Markup:
+        """The table for a notebook."""
         shown = [(k, column) for k, column in enumerate(self.columns) if column.head is not None]
         heads = tag("tr", [tag("th", column.head) for _, column in shown])
         rows = (tag("tr", [tag("td", _formatted(row[k], _number(column))) for k, column in shown]) for row in self.rows)
         return tag("table", tag("thead", heads), tag("tbody", rows))
 
     def csv(self) -> str:
+        """The table as CSV text."""
         kept = [(k, column) for k, column in enumerate(self.columns) if column.key]
         rows = ([_formatted(row[k], column.stored) for k, column in kept] for row in self.rows)
         return csv_text([[column.key for _, column in kept], *rows])
@@ -72,6 +74,7 @@ class Table:
 
 
 def table(columns: Iterable[Column], rows: Iterable[Iterable[CellValue]]) -> Table:
+    """A table of rows."""
     return Table(tuple(columns), tuple(map(tuple, rows)))
 
 

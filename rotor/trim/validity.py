@@ -66,6 +66,7 @@ class CaveatInputs:
 
     @property
     def mu(self) -> float:
+        """Advance ratio."""
         return self.design.condition.advance_ratio
 
     @property

@@ -34,6 +34,8 @@ HIGHEST_TIP = 3
 
 @dataclass(frozen=True)
 class FlownCase:
+    """One condition of a test."""
+
     test: str
     """Name of the set on the command line."""
     name: str
@@ -107,6 +109,7 @@ class MeasuredCurve:
 
     @property
     def waves(self) -> Array:
+        """`harmonics` of this curve."""
         return harmonics(self.psi, self.values, self.highest)
 
 
@@ -255,6 +258,7 @@ def closed_around(psi: Array, values: Array) -> tuple[Array, Array]:
 
 
 def azimuth_chart(title: str, label: str, series: Iterable[Series]) -> Chart:
+    """A chart over the azimuth."""
     return Chart(title, Axis("azimuth [°]", ticks=AZIMUTH), Axis(label), tuple(series))
 
 

@@ -51,6 +51,8 @@ ALSO = {"xv15-forward-15deg": ("uniform",)}
 
 @dataclass(frozen=True)
 class MeasuredSet:
+    """The points of one test."""
+
     name: str
     title: str
     report: str
@@ -145,6 +147,8 @@ def load_set(name: str) -> MeasuredSet:
 
 @dataclass(frozen=True)
 class ComparedPoint:
+    """One measured point with the computed one."""
+
     given: dict[str, float]
     measured: dict[str, float]
     computed: dict[str, float] | None
@@ -172,6 +176,7 @@ class Comparison:
 
     @property
     def judged(self) -> tuple[ComparedPoint, ...]:
+        """Points that count."""
         return tuple(point for point in self.points if self.measured.counts({**point.given, **point.measured}))
 
     @property

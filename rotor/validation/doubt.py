@@ -143,6 +143,7 @@ def coverage(points: Iterable[tuple[PointAndBand, Sequence[float]]]) -> tuple[fl
 
 
 def doubt_set() -> TrustSet:
+    """For the trust page."""
     words, points, sizes = description(NAME), points_and_bands(), shipped_sizes()
     rows: list[TrustRow] = []
     series: list[Points] = []

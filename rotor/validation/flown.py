@@ -80,11 +80,13 @@ class MeasuredPower:
 
     @property
     def title(self) -> str:
+        """The flight in words."""
         return f"{self.case}: µ {self.mu:g}, {self.mass:g} kg, {self.altitude:g} m"
 
 
 @cache
 def measured_powers() -> tuple[MeasuredPower, ...]:
+    """Every power that was measured in flight."""
     angles = ("theta0_deg", "theta1c_deg", "theta1s_deg")
     return tuple(
         MeasuredPower(
@@ -149,6 +151,7 @@ def shape_errors(computed: Sequence[float], measured: Sequence[float]) -> tuple[
 
 
 def flown_angles() -> tuple[FlownAngle, ...]:
+    """The four pitch angles of the Bo 105."""
     solutions = [solve(make_design(rotor="bo105", speed_kt=speed, mass_kg=MASS_KG)).require() for speed in SPEEDS_KT]
     computed: Array = np.degrees(np.array([_angles(solution) for solution in solutions])).T
     rows = csv_rows(asset_path("measured/bo105_controls.csv"))
@@ -186,6 +189,7 @@ def tail_pitch(solution: Solution) -> float:
 
 
 def flown_set() -> TrustSet:
+    """For the trust page."""
     words, powers, angles = description(POWERS), list(flown_powers()), flown_angles()
     gazelle, bo105 = (100.0 * shape_errors(*_trimmed(powers, rotor))[0] for rotor in ("gazelle", "bo105"))
     return words.page(

@@ -55,6 +55,7 @@ def height(course: WakeCourse, x: Array, y: Array) -> Array:
 
 
 def cases() -> tuple[airloads.FlownCase, airloads.FlownCase]:
+    """BL and MN."""
     baseline, moved = (case for case in airloads.CASES if case.test == SET)
     return baseline, moved
 
@@ -65,6 +66,7 @@ def curves() -> dict[tuple[str, str], airloads.MeasuredCurve]:
 
 
 def hart2_set() -> TrustSet:
+    """For the trust page."""
     solutions = {case.name: solve(case.design()).require() for case in cases()}
     agreements = {key: airloads.agreement(curve, solutions[key[0]]) for key, curve in curves().items()}
     normal = [agreements[name, "cn_m2"].correlation for name in solutions]

@@ -58,6 +58,7 @@ class InflowAgreement:
 
 
 def measured_inflow() -> tuple[MeasuredInflow, ...]:
+    """The measured points, one value an advance ratio."""
     rows = csv_rows(asset_path("measured/2mrts_inflow.csv"))
     inflows: list[MeasuredInflow] = []
     for mu in CONDITIONS:

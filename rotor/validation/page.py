@@ -98,6 +98,7 @@ def write_trust(sets: Iterable[TrustSet], folder: Path) -> Path:
 
 
 def trust_csv(rows: Iterable[TrustRow]) -> str:
+    """assets/trust.csv."""
     cells = ([_plain(cell) for cell in astuple(row)] for row in rows)
     return csv_text([[field.name for field in fields(TrustRow)], *cells], _HEADING)
 
@@ -117,6 +118,7 @@ def write_set(data: TrustSet, folder: Path) -> Path:
 
 
 def summary(sets: Sequence[TrustSet]) -> str:
+    """docs/validation.md."""
     parts: list[str] = []
     for kind, against in _AGAINST.items():
         rows = [
@@ -144,6 +146,7 @@ def summary(sets: Sequence[TrustSet]) -> str:
 
 
 def set_page(data: TrustSet) -> str:
+    """docs/validation/NAME.md."""
     kind = data.rows[0].kind
     labels = [row.what.removeprefix(f"{data.title}: ") for row in data.rows]
     judged = kind == "document" or any(row.target for row in data.rows)

@@ -65,6 +65,7 @@ def glasgow_section() -> SectionTable:
 
 
 def stall_loop(run: str) -> StallLoop:
+    """A run beside the computed one."""
     rows = [row for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv")) if row["run"] == run]
     alpha, cl, cd, cm = columns(rows, "alpha_deg", "cl", "cd", "cm")
     mean, amplitude, k = (float(rows[0][name]) for name in ("mean_deg", "amplitude_deg", "k"))

@@ -38,6 +38,8 @@ VERDICTS: dict[Verdict, str] = {
 
 @dataclass(frozen=True)
 class TrustRow:
+    """One comparison."""
+
     set: str
     """Name of its set, which is that of its page in docs/validation."""
     kind: Kind

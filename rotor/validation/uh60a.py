@@ -190,6 +190,8 @@ def constants_set() -> TrustSet:
 
 @dataclass(frozen=True, eq=False)
 class PitchLinkLoad:
+    """One advance ratio."""
+
     mu: float
     measured: airloads.MeasuredCurve
     psi: Array
@@ -224,6 +226,7 @@ def pitch_link_loads() -> Iterator[PitchLinkLoad]:
 
 
 def pitch_link_set() -> TrustSet:
+    """For the trust page."""
     loads = list(pitch_link_loads())
     errors = [computed / measured - 1.0 for measured, computed, _ in (load.half_peaks for load in loads)]
     return description(airloads.PITCH_LINK).page(

@@ -127,6 +127,7 @@ class LocalMomentumInflow(InflowModel):
     load_dependent = True
 
     def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> "SectorTerms":
+        """The model on a disk."""
         del course
         return SectorTerms(disk, losses.spacing if losses.tip else math.inf)
 

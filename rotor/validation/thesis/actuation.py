@@ -33,6 +33,7 @@ PLIES = of_kind(PiezoPly)
 
 
 def figure_5_5() -> Report:
+    """Free strain."""
     curves: list[Series] = []
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
@@ -102,6 +103,7 @@ def figure_5_10() -> Report:
 
 
 def table_5_1() -> Report:
+    """Properties of actuators."""
     rows = actuator_tables.table_5_1()
     properties = table("properties", rows.columns, rows.rows)
     return report("table 5.1", tables=[properties], count=len(rows.rows), notes=" ".join(rows.notes))

@@ -25,6 +25,7 @@ class CatalogueEntry:
 
     @property
     def chapter(self) -> str:
+        """Chapter of the thesis."""
         return thesis()[self.number]["chapter"]
 
     @property

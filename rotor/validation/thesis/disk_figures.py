@@ -138,6 +138,7 @@ def convergence_order(powers: Sequence[float]) -> float:
 
 
 def figure_3_9() -> Report:
+    """Azimuths."""
     powers: Curves = {}
     errors: Curves = {}
     numbers: dict[str, float] = {}

@@ -81,6 +81,7 @@ def csv_name(report: Report, table: ReportTable) -> str:
 
 
 def write_csv(path: Path, report: Report, table: ReportTable) -> None:
+    """One table with a heading of comments."""
     heading = f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n"
     # Six significant digits are more than the accuracy of any.
     rows = ([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in table.rows)

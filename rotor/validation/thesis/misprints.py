@@ -26,6 +26,8 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class Misprint:
+    """One misprint, ambiguity or omission."""
+
     equation: str
     kind: str
     """`misprint`, `ambiguous`, or `omission`."""
