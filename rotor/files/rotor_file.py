@@ -119,6 +119,8 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
                 f"The rotor file has no blade_mass_kg: the blades flap with Lock number {LOCK_NUMBER:g}; hover power "
                 "does not depend on it."
             )
+        if (rate := file.main.linear_twist_deg or 0.0) > 0.0:
+            remarks.append(f"The twist rises by {rate:g} deg a radius: for washout write linear_twist_deg = {-rate:g}.")
         stated, document = None, file.main.document
         if document is not None:
             blade = _blade(file.main, document, (*_MAIN, "document"), sections)

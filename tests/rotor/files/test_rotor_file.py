@@ -63,6 +63,12 @@ def polar_file(polar: Polar) -> str:
     )
 
 
+def test_a_twist_that_rises_is_remarked():
+    text = re.sub(r"twist_r = .*\ntwist_deg = .*", "linear_twist_deg = -9.0", GOOD)
+    assert not read(text).remarks
+    assert "for washout write linear_twist_deg = -9" in read(text.replace("-9.0", "9.0")).remarks[0]
+
+
 def test_a_rotor_alone_needs_neither_mass_nor_spring():
     """Power in hover is that of any mass, and a rigid blade has none to flap with; without a mass γ is 8."""
     text = GOOD.partition("[airframe]")[0].replace("flap_hinge_m = 0.2\n", "")
