@@ -9,7 +9,7 @@ from explorer.charts import svg
 from explorer.charts.probe_measured import HEIGHT as CHART_HEIGHT
 from explorer.charts.probe_measured import lift_chart, with_indices
 from explorer.charts.svg import Point, chart_box
-from explorer.colours import NOW
+from explorer.colours import NOW, THIS
 from explorer.model.units import degrees, number
 from explorer.picture.element import FlowRegion, Probe, outline, sections_of, where
 from explorer.text.glossary import tip
@@ -20,7 +20,9 @@ from rotor.support.chart import drawn_chart
 from rotor.support.markup import Attribute, Content, Markup, group, tag
 
 WIDTH, HEIGHT = 312.0, 166.0
-LIFT, DRAG, ALPHA = "var(--rx-accent)", NOW, "var(--rx-good)"
+LIFT, DRAG, ALPHA = THIS, NOW, "#099268"
+LIFT_INK, ALPHA_INK = "var(--rx-accent)", "var(--rx-good)"
+"""Of words, which need more contrast than lines."""
 OPENED = 3
 """How many times wider small angles are drawn on request."""
 _QUARTER: Point = (126.0, 82.0)
@@ -162,7 +164,7 @@ def _angles(sketch: _Sketch) -> Markup:
     words = (
         (f"θ {degrees(probe.theta, 1)}", "currentColor", None, None),
         (f"φ {degrees(probe.phi, 1)}", "currentColor", None, None),
-        (f"α {degrees(probe.alpha, 1)}", ALPHA, _BOLD, None),
+        (f"α {degrees(probe.alpha, 1)}", ALPHA_INK, _BOLD, None),
         ("disk plane", "currentColor", None, _FAINT),
     )
     labels = [
@@ -202,7 +204,7 @@ def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> Markup:
         svg.arrow(_QUARTER, (x + drag * cos, y + drag * sin), DRAG, 2.6),
         svg.arrow(_QUARTER, tip, LIFT, 3.2),
         tag("circle", cx=x, cy=y, r=2.4, fill=svg.BODY, stroke="currentColor", stroke_width=1.2),
-        svg.words(place, f"{text}{number(sketch.probe.lift / 1e3, 2)} kN/m", "start", LIFT, weight=_BOLD),
+        svg.words(place, f"{text}{number(sketch.probe.lift / 1e3, 2)} kN/m", "start", LIFT_INK, weight=_BOLD),
     )
 
 
