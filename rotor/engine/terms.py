@@ -86,7 +86,7 @@ class Terms:
     def slopes(self, z: Array, q: Array, first_atom: int) -> tuple[Array, Array]:
         """∂ by the measures, (rows, measures), and by the atoms from one on, (rows, atoms)."""
         by_q, by_z = np.zeros((self.rows, len(q))), np.zeros((self.rows, len(z) - first_atom))
-        factor = self.factor * z[self.number]
+        factor, q = self.factor * z[self.number], np.ascontiguousarray(q)  # One kernel for a column of many, too.
         _slopes(self.row, self.measure, self.first, self.second, factor, z, q, first_atom, by_q, by_z)
         return by_q, by_z
 

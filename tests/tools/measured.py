@@ -43,6 +43,7 @@ _ROWS = {
     "cold": "a trim from a cold start",
     "warm": "a trim from a neighbour",
     "warm, new speed": "a trim from a neighbour at another speed",
+    "moving": "a frame of a drag",
     "gradient": "the gradient of its power",
     "doubt": "its uncertainty",
 }
