@@ -130,6 +130,7 @@ def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(ap
         await told(visitor, lambda frame: frame.get("flight") is not None)
         await visitor.move("Voltage [%]", 77.0)
         await visitor.until(lambda: page.actuator.inputs().drives == DRIVEN)
+        await visitor.idle(wholly=False)  # What moves by hand is no longer stopped: that has been done.
         await visitor.press("state", "stopped")
         await visitor.press("fly", 3.0)
         await told(visitor, lambda frame: frame["flight"]["at"] == 3.0)
