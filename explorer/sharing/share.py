@@ -130,7 +130,9 @@ def design_from(code: str) -> Design:
     for word in words:
         key, equals, value = word.partition("=")
         if not equals:
-            raise ValueError(f"The design in the address holds {clipped(word)!r}, not key=value: ask for a new link.")
+            raise ValueError(
+                f"The design in the address holds {clipped(word)!r}, not of the form key=value: ask for a new link."
+            )
         record[_LONG.get(key, key)] = _value(value)
     try:
         return design_from_record(record)
@@ -329,7 +331,9 @@ def _number(name: str, word: str) -> float:
     except ValueError:
         value = float("nan")
     if not low <= value <= high:
-        raise ValueError(f"The view in the address has {name}={clipped(word)!r}: give {low:g} to {high:g}.")
+        raise ValueError(
+            f"The view in the address has {name}={clipped(word)!r}: give a number from {low:g} to {high:g}."
+        )
     return value
 
 

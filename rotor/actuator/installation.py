@@ -179,7 +179,9 @@ def read_actuator(text: str) -> ActuatorSpec:
         except ValueError:
             numbers = ()
         if key not in known or not numbers or not np.isfinite(numbers).all():
-            raise ValueError(f"actuator {text!r:.80} has {word!r:.40}: write KEY=NUMBER of {', '.join(sorted(known))}")
+            raise ValueError(
+                f"actuator {text!r:.80} has {word!r:.40}: write KEY=NUMBER with {', '.join(sorted(known))}"
+            )
         given[key] = numbers
     plain, gj, drives = default_placement(), given.get("gj"), given.get("drive", (0.0,))
     span, chord = given.get("span", plain.span), given.get("chord", plain.chord)

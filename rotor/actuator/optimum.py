@@ -49,7 +49,9 @@ class ConditionPair:
 
     def __post_init__(self) -> None:
         if not 0.0 < self.share < 1.0:
-            raise ValueError(f"time share {self.share:g} is outside 0…1: give the part of time in the second condition")
+            raise ValueError(
+                f"time share {self.share:g} is not between 0 and 1: give the fraction of time in the second condition"
+            )
         if self.advance_ratios[0] == self.advance_ratios[1]:
             raise ValueError(f"both conditions have advance ratio {self.advance_ratios[0]:g}: give two that differ")
 

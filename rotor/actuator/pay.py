@@ -254,7 +254,9 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     installed, base = verdict.installed, verdict.baseline
     mass = installed.masses.aircraft
     if not mass:
-        raise ValueError(f"{installed.actuator.name} adds no mass, so it has no break-even: choose another actuator")
+        raise ValueError(
+            f"{installed.actuator.name} adds no mass, so no break-even mass applies: choose another actuator"
+        )
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
     parts, start, flown = verdict.parts_doubt, [verdict.resting.values], verdict.optimum.solutions
     if not flown:  # The trims were left behind.

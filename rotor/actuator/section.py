@@ -45,7 +45,9 @@ class Placement:
         if not 0.0 <= front < rear <= 0.95:
             raise ValueError(f"active chord {front:g}…{rear:g} is not inside 0…0.95 c: give front < rear as x/c")
         if not 1 <= self.plies <= 12:
-            raise ValueError(f"{self.plies} plies are outside 1…12: choose a number inside (six weigh half a blade)")
+            raise ValueError(
+                f"{self.plies} plies are outside 1…12: choose a number inside (six weigh as much as half a blade)"
+            )
         if any(a >= b for a, b in pairwise((0.0, *self.divisions, 1.0))):
             raise ValueError(f"segment divisions {list(self.divisions)} must ascend between 0 and 1")
 
@@ -68,9 +70,13 @@ class HostBlade:
 
     def __post_init__(self) -> None:
         if not 0.1 <= self.stiffness <= 2.0:
-            raise ValueError(f"blade stiffness {self.stiffness:g} is outside 0.1…2: give GJ over the existing blade's")
+            raise ValueError(
+                f"blade stiffness {self.stiffness:g} is outside 0.1…2: give GJ relative to the existing blade"
+            )
         if self.kind == "retrofit" and self.stiffness != 1.0:
-            raise ValueError(f"a retrofit keeps the blade's stiffness, not {self.stiffness:g}: use 1, or a new blade")
+            raise ValueError(
+                f"a retrofit keeps the blade, so its stiffness cannot be {self.stiffness:g}: use 1, or a new blade"
+            )
 
     @property
     def label(self) -> str:

@@ -201,7 +201,9 @@ def format_c81(deck: C81Deck) -> str:
     counts = [n for block in deck.blocks for n in (block.mach.size, block.alpha_deg.size)]
     counts += [0] * (6 - len(counts))
     if max(counts) > 99 or len(deck.title) > 30:
-        raise ValueError(f"C81 holds 99 angles and a title of 30 letters at most, not {max(counts)} and {deck.title!r}")
+        raise ValueError(
+            f"C81 holds 99 angles and a title of 30 characters at most, not {max(counts)} and {deck.title!r}"
+        )
     lines = [f"{deck.title:<30}" + "".join(f"{n:2d}" for n in counts)]
     for name, block in zip(_NAMES, deck.blocks, strict=False):
         lines += _cards_of(" " * _FIELD, block.mach, 3)

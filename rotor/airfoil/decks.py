@@ -119,7 +119,9 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
         )
     largest = float(np.abs(values).max())
     if kind < 2 and largest > _LARGEST:
-        raise ValueError(f"{title}: {('cl', 'cd')[kind]} reaches {largest:g}, more than any section: check the digits")
+        raise ValueError(
+            f"{title}: {('cl', 'cd')[kind]} reaches {largest:g}, more than any section has: check the digits"
+        )
     on_angles = np.all(np.abs(alpha * 2.0 - np.round(alpha * 2.0)) < 1e-9)
     closed = abs(alpha[0] + 180.0) < 1e-9 and abs(alpha[-1] - 180.0) < 1e-9
     if not (on_angles and closed):

@@ -150,7 +150,9 @@ def parse_polars(text: str, name: str) -> PolarSet:
             begin = number
             mach, reynolds = stated[0] if np.isnan(mach) else mach, stated[1] if np.isnan(reynolds) else reynolds
             if 0.0 < reynolds < _LEAST_REYNOLDS:
-                raise ValueError(f"{name}: Reynolds number {reynolds:g} is not a blade's: give it in full, as 500000")
+                raise ValueError(
+                    f"{name}: Reynolds number {reynolds:g} is not a blade's: give it in full, such as 500000"
+                )
             if np.isnan(mach):
                 assumed["names no Mach number: it is taken as incompressible"] = None
             if heading.radians:
@@ -206,7 +208,9 @@ def _stated(name: str, above: list[str], before: tuple[float, float]) -> tuple[f
     """Mach and Reynolds number above a heading, else those of the table `before`. ValueError for a polar at neither."""
     head = " ".join(" ".join(above).split())[-_LONGEST_HEAD:].lower()
     if varied := re.search(r"(reynolds|mach) number ?~", head):
-        raise ValueError(f"{name}: its {varied[1].capitalize()} number changes with lift (XFOIL type 2, 3): run TYPE 1")
+        raise ValueError(
+            f"{name}: its {varied[1].capitalize()} number changes with lift (XFOIL type 2 or 3): run TYPE 1"
+        )
     mach = _value(name, head, rf"\bmach\b\W{{0,12}}(?:number\W{{0,12}})?{STATED}")
     reynolds = _value(name, head, rf"\bre(?:ynolds)?\b\W{{0,12}}(?:number\W{{0,12}})?{STATED}")
     if reynolds is None and (millions := _value(name, head, rf"(?:^| ){STATED} re\b")) is not None:

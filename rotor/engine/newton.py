@@ -40,8 +40,8 @@ _MOST_FORGETFUL = 2
 all the rest, and they spare steps near deep stall only. Our choice."""
 _MOST_PRODUCTS = 40
 """Products with a Jacobian after which factors nearby do not serve for its transposed."""
-KRYLOV_TOLERANCE = 1e-8
-"""Residual over the right side at which such a solution ends: gradients are within 1e-7 (tested). Our choice."""
+KRYLOV_TOLERANCE = 1e-10
+"""Residual over the right side at which such a solution ends. Our choice."""
 _SINGLE_PRECISION_FROM = 200
 """Equations from which factors are kept in single precision: what a step misses by it, the next one corrects."""
 

@@ -13,7 +13,7 @@ import numpy as np
 from rotor.design.design import Design
 
 _FARTHEST = 3.0
-"""Steps beyond which the last trim itself is the better start. Our choice."""
+"""Steps beyond which the last trim itself is the better start; one more back, to the first of the two. Our choice."""
 _PARALLEL = 0.3
 """Part of the larger of two changes of a number by which it may be out of proportion with the others. Our choice."""
 _NO_CHANGE = 1e-12

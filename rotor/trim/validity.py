@@ -244,7 +244,9 @@ def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
             )
         return found
     if top_mach > 0.5:
-        found["no-compressibility"] = f"The section polar holds for one Mach number; the tip reaches {top_mach:.2f}."
+        found["no-compressibility"] = (
+            f"The section polar holds for one Mach number; the tip reaches Mach {top_mach:.2f}."
+        )
     if any(not span.section.startswith(THESIS_NAME) for span in design.rotor.blade.spans):
         found["mixed-section-data"] = (
             f"Part of the blade uses the polynomials {THESIS_NAME} for one Mach number and transition, the rest tables "

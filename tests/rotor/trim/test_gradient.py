@@ -106,14 +106,14 @@ def test_gradient_of_a_solution_from_another_process(inflow: str, mu: float, ela
     there: Solution = pickle.loads(pickle.dumps(here.solution))
     for objective in ("total", "induced"):
         own = power_gradient(here, objective).by_element
-        assert_allclose(power_gradient(there, objective).by_element, own, rtol=0, atol=1e-7 * np.abs(own).max())
+        assert_allclose(power_gradient(there, objective).by_element, own, rtol=0, atol=1e-9 * np.abs(own).max())
 
 
 def test_gradient_of_a_solution_whose_thrust_is_downward():
     """Its λ0, which is negative, was taken as 1e-4 where only the solution was given: 0.2 % off."""
     here = analyse(make_design(mu=0.2, trim="controls", stand={"collective_deg": -4.0}))
     own = power_gradient(here).by_element
-    assert_allclose(power_gradient(here.solution).by_element, own, rtol=0, atol=1e-7 * np.abs(own).max())
+    assert_allclose(power_gradient(here.solution).by_element, own, rtol=0, atol=1e-9 * np.abs(own).max())
 
 
 @pytest.mark.parametrize(
@@ -153,7 +153,7 @@ def test_factors_made_at_a_trim_spare_passes_and_change_no_answer(models: dict[s
     adjoint, point = trim.adjoint, trim.linear.point
     matrix, power = jacobian(point, adjoint.total_terms)
     exact = np.linalg.solve(matrix.T, power[0])
-    np.testing.assert_allclose(adjoint.of_total, exact, rtol=0.0, atol=1e-7 * np.abs(exact).max())
+    np.testing.assert_allclose(adjoint.of_total, exact, rtol=0.0, atol=1e-8 * np.abs(exact).max())
     assert start.box is not None
     assert start.box.at_trim
     after, moving = solve(nearby, trim.solution), analyse(nearby, trim.solution, FEW_DIGITS)

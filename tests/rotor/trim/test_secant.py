@@ -45,7 +45,6 @@ def test_many_numbers_count_where_they_move_in_proportion():
 def test_a_drag_takes_fewer_passes(models: dict[str, Any], slider: str):
     """It turns round, and jumps at the end. Near the tolerance a frame may take one more."""
     step = {"twist": -0.25, "mu": 0.002, "mass_kg": 50.0, "altitude_m": 50.0}[slider]
-
     begun = {"twist": -10.0, "mu": 0.2, "mass_kg": 8000.0, "altitude_m": 500.0}[slider]
 
     def design(at: float) -> Design:
