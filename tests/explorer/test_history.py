@@ -159,7 +159,7 @@ class TestShare:
 BAD = {
     "": "not version 1",
     "1;table:/etc/passwd": "a file on the sender",
-    "1;linear:-8;mu": "not key=value",
+    "1;linear:-8;mu": "not of the form key=value",
     "1;linear:-8;mu=fast": "not a number: write for example 1.0",
     "1;linear:-8;mu=NaN": "advance_ratio is nan, outside",
     "1;linear:-8;wings=2": "unknown key 'wings'",
@@ -228,7 +228,7 @@ def test_only_what_differs_is_written():
         ("1;colour=red", "'colour=red'"),
         ("1;field=" + "x" * 90, "choose angle, induced"),
         ("1;stall=1", "choose on, off"),
-        ("1;exaggeration=nan", "give 1 to 6"),
+        ("1;exaggeration=nan", "give a number from 1 to 6"),
     ],
 )
 def test_a_bad_view_is_one_sentence(code: str, said: str):
