@@ -126,7 +126,7 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
     n, m = c.shape[1:]
     f, d = np.zeros((4, n, m)), np.zeros((20, n if slopes else 0, m))
     s = np.empty((5, n if flow else 0, m))
-    elastic, masked = len(data.moment_gain) > 0, len(data.unloaded) > 0
+    elastic, masked, scattered = len(data.moment_gain) > 0, len(data.unloaded) > 0, len(data.scatter) > 0
     w, alpha, mach = np.empty((_DRAG_BY + 4, m)), np.empty(m), np.empty(m)
     cells, places, coeffs = np.empty((2, m), np.int32), np.empty((3, m)), np.zeros((12, m))
     for i in range(n):
@@ -134,7 +134,6 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         angles_of_attack(c[TH, i], t, p, alpha)
         _speeds(t, p, w[_U])
         _mach_numbers((t, p, r), data.cos_sweep[i], data.sin_sweep[i], data.tip_mach, mach)
-        scattered = len(data.scatter) > 0
         by_angle, speed, between = slopes or flow or scattered, w[_U], False
         places_along_mach(mach, cells[1], places[1], places[2])
         _coefficients(data, i, alpha, (0, 1 if data.yawed else 2), by_angle, cells, places, coeffs, 0)
