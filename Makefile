@@ -49,6 +49,9 @@ page: setup-dev browser $(WARM) $(AXE)/.ready ## run test-page and slow-page in 
 
 # The second time in another order, then as on other processors, those of which this one can run the kernels. Pages by
 # themselves: some tests measure times.
+# pytest's dump of all threads comes later than any test takes: while they run it can end the process
+# (python/cpython#116008).
+nightly: export PYTEST_ADDOPTS += -o faulthandler_timeout=7200
 nightly: setup-dev browser $(WARM) $(AXE)/.ready ## run every test at its longest: many random inputs, all figures, pictures of the page
 	HYPOTHESIS_PROFILE=thorough $(BIN)/python -m pytest -m 'not browser and not crosscheck' --dist loadgroup $(ARGS)
 	$(BIN)/python -m pytest -p randomly --randomly-dont-reset-seed $(ARGS)

@@ -29,7 +29,21 @@ _log = logging.getLogger(__name__)
 
 
 class _CheckedFiles(IndexDataCacheFile):
-    """numba's index and data files with a checksum before their content; ValueError for one that is damaged."""
+    """numba's index and data files with a checksum before their content; ValueError for one that is damaged.
+
+    Code has what it was compiled from beside it: numba writes the index first, and under the name that it gives there
+    is the code of an earlier version until the new is written, for ever if writing is cut short.
+    """
+
+    def save(self, key: Any, data: Any) -> None:
+        super().save(key, (self._origin(key), data))  # pyright: ignore[reportUnknownMemberType]
+
+    def load(self, key: Any) -> Any:
+        origin, data = super().load(key) or (None, None)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
+        return data if origin == self._origin(key) else None
+
+    def _origin(self, key: Any) -> tuple[Any, ...]:
+        return self._version, self._source_stamp, key
 
     def _dump(self, obj: Any) -> bytes:
         content: bytes = super()._dump(obj)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]

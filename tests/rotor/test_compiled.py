@@ -139,6 +139,41 @@ def test_on_a_full_disk_nothing_is_kept(source: Path, monkeypatch: pytest.Monkey
     assert module(source).kernel(1.0) == 2.0
 
 
+@pytest.mark.parametrize("written", [0, 1, 2])
+@pytest.mark.parametrize("changed", ["source", "argument", "numba"])
+def test_a_write_cut_short_leaves_no_code_of_something_else(
+    source: Path, monkeypatch: pytest.MonkeyPatch, written: int, changed: str
+):
+    """numba writes the index, then the code, under a name that the version before may have used."""
+    replace, left = os.replace, written
+
+    def until_the_disk_is_full(*names: str) -> None:
+        nonlocal left
+        if not left:
+            raise OSError(errno.ENOSPC, "No space left on device")
+        left -= 1
+        replace(*names)
+
+    assert module(source).kernel(1.0) == 2.0
+    argument: Any = 1.0
+    if changed == "source":
+        source.write_text(SOURCE.replace("x + 1.0", "x + 21.0"), encoding="utf-8")
+    elif changed == "argument":
+        argument = 1 + 2j
+        next(source.parent.rglob("*.nbi")).unlink()
+    else:
+        monkeypatch.setattr("numba.__version__", "another")
+    right = argument + (21.0 if changed == "source" else 1.0)
+    with monkeypatch.context() as patch:
+        patch.setattr(os, "replace", until_the_disk_is_full)
+        assert module(source).kernel(argument) == right
+    assert bool(why_not_kept()) == (written < 2)
+    after = module(source).kernel
+    assert (after(argument), hits(after)) == (right, int(written == 2))
+    again = module(source).kernel
+    assert (again(argument), hits(again)) == (right, 1)
+
+
 def test_every_kernel_is_compiled_here():
     """A kernel with numba's own cache ends the program at import where no folder can be written."""
     home = Path(rotor.__file__).parent
