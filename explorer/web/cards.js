@@ -147,7 +147,8 @@
       : field.shares;
     const key = (plan ? PLANNED : REGIONS).map(([name, title, swatch]) => {
       const stall = name === 'stall', share = text(shares[name] ?? (plan && regions[name] ? 'none' : ''));
-      const words = share && plan ? `<span class="rxf-num">${share}</span>` : share;
+      // Beside a plan labels have the shares; of what it has none of there is no label.
+      const words = plan && name in shares ? `<span class="rxf-num">${share}</span>` : share;
       return `<button data-do="region" data-value="${name}" aria-pressed="${regions[name]}"
         ${stall ? 'title="Part of the disk at high and at negative angles of attack"' : ''}>
         <svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title} ${words}</button>`;
