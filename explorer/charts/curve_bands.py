@@ -34,5 +34,6 @@ def curve_bands(design: Design, reference: Design | None) -> Bands:
 
 def band_along(bands: Bands, mu: Array) -> Array:
     """The band at other advance ratios [W]; NaN beyond those that are known."""
-    x, y = np.array(bands).T
-    return PchipInterpolator(x, y, extrapolate=False)(mu) if len(x) > 1 else np.full(len(mu), np.nan)
+    if len(bands) < 2:
+        return np.full(len(mu), np.nan)
+    return PchipInterpolator(*np.array(bands).T, extrapolate=False)(mu)

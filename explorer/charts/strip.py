@@ -188,11 +188,13 @@ def total_power_chart(
 
 
 def with_band(chart: Chart, bands: Bands, units: Units) -> Chart:
-    """Power over µ, or its change, with the band of its curve in place of the area down to zero."""
+    """Power over µ, or its change, with the band of its curve, if any speed has one, in place of the area to zero."""
     line = next(line for line in chart.series if isinstance(line, Line) and line.colour == SAVING)
     x, y = np.array(line.x), np.array(line.y)
     half = band_along(bands, x) / units.power[0].size
     known = np.isfinite(y + half)
+    if not known.any():
+        return chart
     x, y, half = x[known], y[known], half[known]
     note = f"{chart.note} Shaded: how uncertain it is.".strip()
     series = (replace(one, filled=False) if one is line else one for one in chart.series)

@@ -34,7 +34,7 @@ class FieldPart:
     """The quantity on the disk, with its colour bar.
 
     `ticks`: place [% of the bar] and text of each. `fitted`: the range is fitted to the data; `beyond`: values lie
-    below it, and above. `regions`: whether each is shown. `stalled`: how much of the disk is. `difference`: whether
+    below it, and above. `regions`: whether each is shown; `shares`: of the disk, or "none". `difference`: whether
     B − A is shown; None without A. `held`: a presenter moves the page.
     """
 
@@ -46,7 +46,7 @@ class FieldPart:
     faded: bool
     fitted: bool
     regions: Mapping[str, bool]
-    stalled: str
+    shares: Mapping[str, str]
     difference: bool | None
     wipe: bool
     beyond: tuple[bool, bool]

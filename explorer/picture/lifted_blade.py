@@ -11,7 +11,7 @@ import numpy as np
 
 from explorer.picture.actuator_drawings import DRAWINGS, RING, SIDES, BladePart, Span, side_line, stations
 from explorer.picture.blade_mesh import Mesh, section_ring
-from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, framed, seen_at
+from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, between_cards, direction, framed, seen_at
 from explorer.picture.picture import Pose, axis_rotation, composed_rotation, rotate
 from rotor import Rotor
 from rotor.actuator import InstalledActuator
@@ -226,13 +226,15 @@ _NEARER, _RISING, _ROLLED = math.radians(27.0), math.radians(2.0), math.radians(
 _FROM_HUB = (-1.55, -1.55, 7.0)
 """Place of the lifted blade from the hub, in radii: right, up and towards the viewer."""
 _MARGIN = 0.96
+_ASIDE = np.radians(np.arange(1.0, 31.0))
+"""The viewer goes so far round to the left until a narrow canvas has room for the whole helicopter."""
 
 
-def _view() -> tuple[Array, Array, Array]:
-    """Right, up and towards the viewer."""
-    level = math.cos(_ABOVE)
-    backward = np.array([math.cos(_AROUND) * level, math.sin(_AROUND) * level, math.sin(_ABOVE)])
-    right = np.array([-math.sin(_AROUND), math.cos(_AROUND), 0.0])
+def _view(aside: float = 0.0) -> tuple[Array, Array, Array]:
+    """Right, up and towards the viewer, who went so far round to the left [rad]."""
+    around = _AROUND - aside
+    backward = direction(around, _ABOVE)
+    right = np.array([-math.sin(around), math.cos(around), 0.0])
     return right, np.cross(backward, right), backward
 
 
@@ -249,16 +251,29 @@ def fit_lifted(radius: float, aspect: float) -> Camera:
 
     The two are in the middle of the height, and no part of the blade is below it.
     """
-    pose = lifted_pose(radius)
+    psi = np.linspace(0.0, 2.0 * math.pi, 25)
+    rim = radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
+    camera = _fit_from(radius, aspect, 0.0)
+    for aside in _ASIDE:
+        # Between cards the camera stands further back, and what is far away further out.
+        if seen_at(between_cards(camera, USUAL_COVER), rim, USUAL_COVER.free * aspect)[:, 0].max() <= _MARGIN:
+            break
+        camera = _fit_from(radius, aspect, aside)
+    return camera
+
+
+def _fit_from(radius: float, aspect: float, aside: float) -> Camera:
+    """The same from so far round to the left [rad]."""
+    pose, (_, upward, toward) = lifted_pose(radius), _view(aside)
     ends = [radius * (r - ORIGIN_R) for r in (0.03, 1.02)]
     box = np.array(
         [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.05 * radius, 0.16 * radius)]
     )
-    camera = framed(rotate(pose.wxyz, box) + pose.position, _view()[2], aspect, _MARGIN)
+    camera = framed(rotate(pose.wxyz, box) + pose.position, toward, aspect, _MARGIN)
     blade = rotate(pose.wxyz, radius * np.array([[x / radius, -0.15, 0.0] for x in ends])) + pose.position
     craft = radius * np.array([[1.3, 0.0, 0.45], [-1.0, 0.0, 0.15], [0.4, 0.0, -0.5]])
     top, low = float(seen_at(camera, craft, aspect)[:, 1].min()), float(seen_at(camera, blade, aspect)[:, 1].max())
     # Turned up: a camera that rose would move the blade, which is near, and hardly the helicopter.
     sight = math.dist(camera.position, camera.look_at)
     up = min(0.5 - 0.5 * (top + low), _MARGIN - low) * 2.0 * sight * math.tan(FIELD_OF_VIEW / 2.0)
-    return Camera(camera.position, camera.look_at + up * _view()[1])
+    return Camera(camera.position, camera.look_at + up * upward)

@@ -137,7 +137,7 @@ _RADII, _AZIMUTHS = 40, 120
 """Points of the field under the pointer."""
 _FINE = 120, 480
 """Points at which shares of area and lift are summed."""
-_REGIONS: dict[str, tuple[str, Callable[[Solution], Array]]] = {
+OUTLINES: dict[str, tuple[str, Callable[[Solution], Array]]] = {
     "stall": ("Stall", stall_segments),
     "reverse_flow": ("Reverse flow", reverse_flow_segments),
     "drag_divergence": ("Drag divergence", drag_divergence_segments),
@@ -198,7 +198,7 @@ def around_chart(solution: Solution) -> Chart:
 def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> list[PlanRegion]:
     shares = region_shares(solution)
     regions = list[PlanRegion]()
-    for name, (title, segments) in _REGIONS.items():
+    for name, (title, segments) in OUTLINES.items():
         lines = outline(segments(solution)) if getattr(view, name) else []
         before = outline(segments(pinned)) if pinned is not None and getattr(view, name) else []
         if not lines and not before:

@@ -136,6 +136,10 @@ class PanelUpdater:
             self._bridge.set(**changed)
         return effects
 
+    def owed(self) -> bool:
+        """Whether worker processes have still to answer."""
+        return any(queue.owes() for queues in self._queues for queue in list(queues.values()))
+
     def rest(self, resting: bool) -> None:
         """Whether worker processes begin nothing more for the panels."""
         with self._following:

@@ -16,10 +16,10 @@ from rotor.trim.power import PowerBudget
 
 WIDTH = 312
 """[px] of the drawing; the panel scales it."""
-_BAR_LEFT, _BAR_RIGHT = 98.0, 258.0
+_BAR_LEFT, _BAR_RIGHT = 112.0, 258.0
 _ROW, _BAR_HEIGHT = 31.0, 11.0
 _MORE, _LESS = "#d9480f", "#0ca678"
-_LONG_NOTE = 38
+_LONG_NOTE = 30
 """Characters of a note that fit between the left ends of the bars and the right edge."""
 _THINNEST = 1.6
 """[px] of a bar that stands for next to nothing."""
@@ -33,14 +33,23 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup
     # The total, without what a descent gives back.
     lengths = [max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS)) for power in powers]
     top = 1.04 * max(lengths, default=1.0)
+    links = [_link(step, 2.0 + k * _ROW, top) for k, step in enumerate(steps)]
     rows = [_row(step, 2.0 + k * _ROW, top, units) for k, step in enumerate(steps)]
     if (full := steps[-1]).budget is not None:
         rows.append(_whole("All switched on", full.budget, full.design, 2.0 + len(steps) * _ROW, top, units))
     box = f"0 0 {WIDTH} {(len(steps) + 1) * _ROW - 8.0:.0f}"
-    drawn = tag("svg", rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power")
+    drawn = tag("svg", links, rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power")
     entries = [tag("span", readout.patch(PARTS[name]), name) for name in part_titles(steps[0].design)]
     key = tag("div.rx-dim.rx-small.rx-line", entries, tag("span", f"[{units.power[0].symbol}]"))
     return tag("div.rx.rx-waterfall", drawn, key, data_explorer="waterfall", data_steps=len(steps))
+
+
+def _link(step: WaterfallStep, y: float, top: float) -> Markup | None:
+    """The line from the row above, which has to lie behind the words of both."""
+    if step.budget is None or step.added is None or step.against is None:
+        return None
+    x = _x(step.against.total, top)
+    return tag("line.rx-w-link", x1=x, x2=x, y1=y - 12, y2=y + 13)
 
 
 def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
@@ -55,14 +64,13 @@ def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
     if width < _THINNEST:
         left, width = 0.5 * (before + after - _THINNEST), _THINNEST
     bar = None if step.note else _rect(left, y + 2, width, _MORE if added > 0.0 else _LESS)
-    link = tag("line.rx-w-link", x1=before, x2=before, y1=y - 12, y2=y + 13)
     beneath = _patches(change, y, units)
     if step.note:  # Begins where the bars begin; a longer one ends at the right edge.
         long = len(step.note) > _LONG_NOTE
         place, look = (WIDTH, "rx-w-note rx-w-number") if long else (_BAR_LEFT, "rx-w-note")
         beneath = _words(place, y + 24, step.note, look)
     power = _words(WIDTH, y + 11, number(units.power[0].of(added), 1, sign=True), "rx-w-number")
-    return tag("g", tag("title", _spoken(step, units)), link, _words(0, y + 11, step.title), bar, power, beneath)
+    return tag("g", tag("title", _spoken(step, units)), _words(0, y + 11, step.title), bar, power, beneath)
 
 
 def _whole(name: str, power: PowerBudget, design: Design, y: float, top: float, units: Units) -> Markup:
@@ -88,7 +96,7 @@ def _patches(change: dict[str, float], y: float, units: Units) -> Markup:
             continue
         drawn.append(tag("rect", x=x, y=y + 18, width=6, height=6, rx=1.5, fill=PARTS[part]))
         drawn.append(_words(x + 9, y + 24, text, "rx-w-note"))
-        x += 17.0 + 5.6 * len(text)
+        x += 17.0 + 7.2 * len(text)
     return group(drawn)
 
 

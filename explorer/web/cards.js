@@ -143,10 +143,12 @@
     const other = field.fitted ? 'the usual colour range (Shift+C)' : 'colours fitted to the data (C)';
     scale.title = `Double click: ${other}`;
     write(scale, Charts.bar(field.colours, field.ticks, field.beyond));
-    const shares = Object.fromEntries((plan?.regions ?? []).map(({name, words}) => [name, words.split(' · ')[0]]));
+    const shares = plan ? Object.fromEntries(plan.regions.map(({name, words}) => [name, words.split(' · ')[0]]))
+      : field.shares;
     const key = (plan ? PLANNED : REGIONS).map(([name, title, swatch]) => {
-      const stall = name === 'stall', share = text(plan ? shares[name] ?? '' : stall && field.stalled || '');
-      const words = share && plan ? `<span class="rxf-num">${share}</span>` : share;
+      const stall = name === 'stall', share = text(shares[name] ?? (plan && regions[name] ? 'none' : ''));
+      // Beside a plan labels have the shares; of what it has none of there is no label.
+      const words = plan && name in shares ? `<span class="rxf-num">${share}</span>` : share;
       return `<button data-do="region" data-value="${name}" aria-pressed="${regions[name]}"
         ${stall ? 'title="Part of the disk at high and at negative angles of attack"' : ''}>
         <svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title} ${words}</button>`;

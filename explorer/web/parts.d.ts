@@ -283,7 +283,7 @@ interface RxFieldPart {
   faded: boolean;
   fitted: boolean;
   regions: Record<string, boolean>;
-  stalled: string;
+  shares: Record<string, string>;
   difference: boolean | null;
   wipe: boolean;
   beyond: [boolean, boolean];

@@ -56,6 +56,8 @@ class TabContext:
         """Called once the panels have followed an update; None: the inputs have no solution."""
         self.resting: list[Callable[[bool], None]] = []
         """Called with whether the page is hidden: then only what is under way is computed for it, and searches."""
+        self.owing: list[Callable[[], bool]] = []
+        """Whether workers have still to answer what parts of the page asked."""
         self.leaving: list[Callable[[], None]] = []
         """Called once the browser has left: end threads and jobs."""
         self.held = False

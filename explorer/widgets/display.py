@@ -13,6 +13,8 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.parts.stage import FieldPart, TurnPart
 from explorer.picture.fields import FIELDS, Field, fields_of
+from explorer.picture.plan import OUTLINES
+from rotor import Solution
 from rotor.support.chart import bar_ticks
 
 REGIONS = ("stall", "reverse_flow", "wake", "drag_divergence")
@@ -35,7 +37,7 @@ class Display:
         self._allowed = self._held = self._playing = self._faded = False
         self.fitted = False
         """Whether a fitted colour range was asked for, not the field's own."""
-        self._stalled = ""
+        self._shares: dict[str, str] = {}
         self._fields = list(FIELDS)
         self._range: tuple[Field, tuple[float, float]] | None = None
         self._beyond = (False, False)
@@ -77,10 +79,8 @@ class Display:
         self._show_field()
 
     def show(self, state: SessionState) -> None:
-        """How much of the disk is stalled, and the quantities that its models have."""
-        self._fields = fields_of(state.solution)
-        share = 100.0 * state.solution.stalled_area
-        self._stalled = f"{number(share, 1)} %" if share >= 0.05 else ""
+        """How much of the disk is stalled, which regions it has none of, and the quantities that its models have."""
+        self._fields, self._shares = fields_of(state.solution), _shares(state.solution, state.view)
         self._show_field()
 
     def allow_difference(self, allowed: bool) -> None:
@@ -128,13 +128,20 @@ class Display:
                 faded=self._faded,
                 fitted=self.fitted,
                 regions={name: getattr(view, name) for name in REGIONS},
-                stalled=self._stalled,
+                shares=self._shares,
                 difference=view.difference if self._allowed else None,
                 wipe=view.wipe,
                 beyond=self._beyond,
                 held=self._held,
             )
         )
+
+
+def _shares(solution: Solution, view: ViewState) -> dict[str, str]:
+    area = solution.stalled_area
+    stall = {"stall": f"{number(100.0 * area, 1)} %"} if area else {}
+    shown = {name: lines for name, (_, lines) in OUTLINES.items() if getattr(view, name)}
+    return {name: "none" for name, lines in shown.items() if not len(lines(solution))} | stall
 
 
 @cache

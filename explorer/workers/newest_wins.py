@@ -26,6 +26,8 @@ _FRAMES_IN_A_ROW = 20
 """Frames after which a step of what can wait has its turn, in a crowd. A step is charts of some three frames' time."""
 _SLOW_FRAME_S = 0.15
 """[s] of processor time that a frame takes which does not converge, or with a costly model."""
+_OWED_S = 0.1
+"""[s] between two looks whether an answer is owed: that it is not any more is no change of the pool."""
 _IDLE_S = 10.0
 """[s] after which a thread without work ends."""
 
@@ -191,17 +193,23 @@ class NewestWins:
             self._answered = True
             self._pool.change.notify_all()
 
-    def until_answered(self, wholly: bool) -> None:
+    def until_answered(self, wholly: bool, owed: Callable[[], bool] = lambda: False) -> None:
         """Wait until all wakes that came before this call are answered, `wholly` also until nothing is left to do; or
-        until the page has gone."""
+        until the page has gone.
+
+        `owed`: whether an answer will still wake it. While `change` is held none can, so neither it nor its wake is
+        missed.
+        """
+
+        def answered() -> bool:
+            if self._stopped or self._wanted.is_set():
+                return self._stopped
+            at_rest = self._state == "idle" and self._steps is None
+            return (at_rest and not owed()) if wholly else (at_rest or self._answered)
+
         with self._pool.change:
-            self._pool.change.wait_for(
-                lambda: (
-                    self._stopped
-                    or (self._state == "idle" and self._steps is None and not self._wanted.is_set())
-                    or (self._answered and not wholly and not self._wanted.is_set())
-                )
-            )
+            while not self._pool.change.wait_for(answered, _OWED_S):
+                pass
 
     def waits(self, ticket: int) -> bool:
         """Whether the step of this ticket is still to be done."""

@@ -12,8 +12,18 @@ from PIL import Image
 from explorer.colours import VOID
 from explorer.model.inputs import ViewState
 from explorer.picture import disk_image
-from explorer.picture.camera_views import FIELD_OF_VIEW, UNCOVERED, Camera, Covered, View, fit
+from explorer.picture.camera_views import (
+    FIELD_OF_VIEW,
+    UNCOVERED,
+    USUAL_COVER,
+    Camera,
+    Covered,
+    View,
+    between_cards,
+    fit,
+)
 from explorer.picture.fields import FIELDS
+from explorer.picture.lifted_blade import fit_lifted
 from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, drawn_times, make_picture, rotate, tip_path_pose
 from explorer.picture.polar import DrawnSolution, PolarGrid, RefinedFlow, polar_grid
 from rotor import Solution, make_design, solve
@@ -206,6 +216,15 @@ class TestCamera:
         assert_allclose(right, [-1.0, 0.0, 0.0], atol=1e-9)
         assert 0.65 < np.abs(x).max() < 1.0
         assert np.ptp(y) < 0.25 * np.ptp(x) * aspect
+
+    @pytest.mark.parametrize("aspect", [0.6, 0.9, 1.2, 1.6])
+    @pytest.mark.parametrize("cover", [UNCOVERED, Covered(0.2, 0.1), USUAL_COVER])
+    def test_behind_the_lifted_blade_the_helicopter_is_whole(self, cover: Covered, aspect: float):
+        """A narrow canvas cut it at the cabin."""
+        camera = between_cards(fit_lifted(8.18, aspect / cover.free), cover)
+        tail, nose = 8.18 * np.array([[1.3, 0.0, 0.45], [-1.0, 0.0, 0.15]])
+        x, y, _ = on_canvas(camera, aspect, np.vstack((self.RIM, tail, nose)))
+        assert np.abs((x, y)).max() < 1.0
 
     @pytest.mark.parametrize("aspect", ASPECTS)
     @pytest.mark.parametrize("psi", [0.0, 1.0, 3.0, 5.5])

@@ -2,18 +2,23 @@
 
 import base64
 import math
+from collections.abc import Mapping
+from typing import Any
 
 import numpy as np
 import pytest
 
-from explorer.model.inputs import ViewState
+from explorer.model.inputs import Inputs, ViewState
+from explorer.model.session_state import SessionState
 from explorer.parts.stage import PackedTable
 from explorer.picture.element import probe
 from explorer.picture.fields import FIELDS
 from explorer.picture.plan import plan, region_shares
 from explorer.picture.polar import CLEAR_OF_REVERSE, DrawnSolution, polar_grid
+from explorer.widgets.display import Display
 from rotor import Solution, make_design, solve
 from rotor.support.arrays import Array
+from tests.fake_bridge import Bridge
 
 ALPHA, MACH = FIELDS["Angle of attack"], FIELDS["Mach number"]
 
@@ -98,3 +103,20 @@ def test_power_fields_sum_to_the_power_by_parts(solution: Solution, title: str, 
     per_metre = FIELDS[title].sample(DrawnSolution(solution), grid).mean(axis=1)
     total = 1e3 * per_metre.sum() * (grid.r[1] - grid.r[0]) * rotor.radius * rotor.blades
     assert total == pytest.approx(getattr(solution.power, part), rel=within)
+
+
+def test_the_key_says_which_regions_the_disk_has_none_of():
+    """Only of those that are shown: the others are off."""
+    page: Any = Bridge()
+
+    def told(mu: float, **view: Any) -> Mapping[str, str]:
+        solution, shown = solve(make_design(mu=mu)), ViewState(**view)
+        display = Display(page, shown, lambda: None, lambda: None)
+        display.show_range(ALPHA, (0.0, 9.0), False, (False, False))
+        display.show(SessionState(Inputs(), shown, solution, solution, None))
+        return page.state["field"].shares
+
+    assert told(0.0) == dict.fromkeys(("stall", "reverse_flow", "drag_divergence"), "none")
+    assert told(0.0, stall=False, reverse_flow=False, drag_divergence=False) == {}
+    assert told(0.2) == {"stall": "0.5 %", "drag_divergence": "none"}
+    assert told(0.3) == {"stall": "0.0 %"}  # As the plan says beside its outline.

@@ -217,6 +217,13 @@ def test_the_band_of_the_curve_is_that_of_its_trims(bands: Bands):
     assert (mu, power) == (0.0, pytest.approx(doubt(solve(BLADES[0].at(mu=0.0))).band, rel=1e-3))
 
 
+@pytest.mark.parametrize("bands", [(), ((0.0, 9e3),), ((0.6, 9e3), (0.7, 9e3))])
+def test_a_curve_without_band_stays_as_it_is(bands: Bands):
+    mu = np.array(SWEEP)
+    chart = total_power_chart(PowerCurve(900.0 + mu, 900.0 + mu, np.full(len(mu), math.nan)), 0.2, 900e3)
+    assert with_band(chart, bands, SI) == chart
+
+
 def test_the_band_lies_about_the_curve(bands: Bands):
     mu = np.array(SWEEP)
     curve = PowerCurve(900.0 - 100.0 * mu, np.full(len(mu), 900.0), np.full(len(mu), math.nan))

@@ -42,6 +42,11 @@ class TestDrawing:
         unit = KILOWATT if units is SI else HORSEPOWER
         assert column[-1] == pytest.approx(unit.of(found.full.power or 0.0), abs=0.05)
 
+    def test_lines_between_rows_lie_behind_every_word(self, found: Waterfall):
+        svg = waterfall_chart(found.steps)
+        assert svg.count("rx-w-link") == len(SWITCHES)
+        assert svg.rindex("rx-w-link") < svg.index("<text")
+
     def test_what_cannot_matter_says_why(self):
         steps = waterfall(coarse(0.0))
         assert "no drag in hover" in waterfall_chart(steps.steps)

@@ -79,6 +79,7 @@ class LecturePanel:
         """Held from reading the place to sending it: an answer that comes as the lecture ends shows nothing."""
         self._answers = PoolAnswers(context.pool, 4, self._facts_came)
         context.resting.append(self._answers.rest)
+        context.owing.append(self._answers.owes)
         context.leaving.append(self._answers.stop)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))

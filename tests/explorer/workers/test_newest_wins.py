@@ -341,3 +341,28 @@ class TestAnswers:
         later.join(10.0)
         go_on.set()
         assert not later.is_alive()
+
+    def test_wholly_idle_waits_for_what_workers_have_still_to_answer(self):
+        """Also where an answer wakes it and its update asks for more, and where the last leaves nothing to do."""
+        seen, owed, told = [0], [True], list[str]()
+
+        def update() -> None:
+            seen[0] += 1
+
+        worker = NewestWins(update, fail, UpdatePool(1))
+
+        def ask() -> None:
+            worker.until_answered(True, lambda: owed[0])
+            told.append(f"after {seen[0]}")
+
+        waiting = threading.Thread(target=ask, daemon=True)
+        waiting.start()
+        worker.until_answered(False, lambda: owed[0])  # All that was sent is answered.
+        for answers in (1, 2):
+            worker.wake()
+            until(lambda answers=answers: seen[0] == answers)
+            time.sleep(0.25)
+            assert told == []
+        owed[0] = False
+        waiting.join(LONG)
+        assert told == ["after 2"]

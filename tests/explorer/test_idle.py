@@ -1,0 +1,20 @@
+"""A page that is idle shows what workers answered, too."""
+
+from explorer.app import App
+from explorer.views.strip import bands_asked
+from tests.tools.visitor import arrived, ran
+
+
+def test_wholly_idle_the_curve_of_power_has_its_band(app: App):
+    async def visit() -> None:
+        visitor = await arrived(app.address)
+        await visitor.move("Adv. ratio µ", 0.23)
+        await visitor.idle()
+        (session,) = app.sessions
+        now = session.page.now()
+        assert isinstance(now.answers.get(bands_asked(now)), tuple)
+        power = next(chart for chart in visitor.frame["strip"] if chart["name"] == "power")
+        assert power["chart"]["series"][0]["kind"] == "band"
+        await visitor.close()
+
+    ran(visit)
