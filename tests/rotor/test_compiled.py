@@ -65,6 +65,7 @@ def two(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, Path]:
     """A module with a function, and one with a kernel that calls it."""
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.delitem(sys.modules, "called_by_a_test", raising=False)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # Python finds that by times and sizes.
     inner, outer = tmp_path / "called_by_a_test.py", tmp_path / "kernels.py"
     inner.write_text("from rotor.support.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
     outer.write_text(
@@ -84,6 +85,25 @@ def test_kept_code_follows_the_functions_it_calls(two: tuple[Path, Path]):
     del sys.modules["called_by_a_test"]
     changed = module(outer).kernel
     assert (changed(1.0), hits(changed)) == (220.0, 0)
+    stat = inner.stat()  # Packages and images may give the files of all versions one time.
+    inner.write_text(inner.read_text().replace("x + 21.0", "x + 31.0"))
+    os.utime(inner, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+    del sys.modules["called_by_a_test"]
+    changed = module(outer).kernel
+    assert (changed(1.0), hits(changed)) == (320.0, 0)
+
+
+@pytest.mark.parametrize("said", ["from called_by_a_test import TEN", "import called_by_a_test"])
+def test_kept_code_follows_the_constants_of_other_files(two: tuple[Path, Path], said: str):
+    """numba compiles their values into the code, and no digest tells of a file that has constants alone."""
+    inner, outer = two
+    name = "TEN" if "from" in said else "called_by_a_test.TEN"
+    outer.write_text(SOURCE.replace("import numba", said).replace("1.0", name), encoding="utf-8")
+    for value, read in ((10.0, 0), (10.0, 1), (12.5, 0), (12.5, 1)):
+        inner.write_text(f"TEN = {value}\n", encoding="utf-8")
+        sys.modules.pop("called_by_a_test", None)
+        kernel = module(outer).kernel
+        assert (kernel(1.0), hits(kernel)) == (1.0 + value, read)
 
 
 @pytest.mark.parametrize("ending", ["nbi", "nbc"])
