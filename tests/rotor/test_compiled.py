@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from pathlib import Path
+from types import CodeType, ModuleType
 from typing import Any
 
 import pytest
@@ -200,6 +201,17 @@ def test_every_kernel_is_compiled_here():
     compiles = re.compile(r"\b(njit|jit|vectorize|guvectorize|stencil)\(")
     users = [path.name for path in home.rglob("*.py") if compiles.search(path.read_text(encoding="utf-8"))]
     assert users == ["compiled.py"]
+
+
+def test_kept_code_is_found_by_all_that_is_compiled_into_it():
+    """Values of other kinds, and the names in a function within a kernel, would not be seen."""
+    own = [one.py_func for one in _watch.kernels if one.py_func.__module__.startswith("rotor.")]
+    for function in {inner for kernel in own for inner in compiled._called(kernel, {kernel: None})}:
+        code = function.__code__
+        assert not any(isinstance(one, CodeType) for one in code.co_consts), function
+        for value in filter(None, (function.__globals__.get(name) for name in code.co_names)):
+            known = int, float, tuple, ModuleType
+            assert isinstance(value, known) or hasattr(value, "py_func") or hasattr(value, "_defn"), (function, value)
 
 
 class Terminal(io.StringIO):
