@@ -73,7 +73,8 @@ def _undamaged(content: bytes) -> Any:
 class _RepairingCache(FunctionCache):
     """numba's cache, for which every failure means that there is nothing to read, or that nothing is kept.
 
-    Kept code holds that of the functions it calls, so it serves as long as their files are the same as well.
+    Kept code holds that of the functions it calls and the constants they name, so it serves as long as these and their
+    files are the same as well.
     """
 
     def __init__(self, function: Callable[..., Any]) -> None:
@@ -84,10 +85,13 @@ class _RepairingCache(FunctionCache):
         cache._cache_file = _CheckedFiles(cache._cache_path, place.filename_base, stamp)
 
     def _index_key(self, sig: Any, codegen: Any) -> Any:
-        """What numba finds kept code by, with the times and sizes of those files."""
-        files = sorted({function.__code__.co_filename for function in _called(self._py_func, set())})
+        """What numba finds kept code by, with those constants and digests of those files."""
+        functions = _called(self._py_func, {self._py_func: None})
+        named = [item for function in functions for item in _named(function)]
+        constants = [repr(item) for item in named if issubclass(type(item), int | float | tuple)]
+        files = sorted({function.__code__.co_filename for function in functions})
         key: tuple[Any, ...] = super()._index_key(sig, codegen)  # pyright: ignore[reportUnknownMemberType, reportUnknownVariableType]
-        return *key, tuple(_stamps.get(file) or _stamp(file) for file in files)
+        return *key, tuple(constants), tuple(_digests.get(file) or _digest(file) for file in files)
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kept code, once another process that compiles it has done so; None where none can be read."""
@@ -116,25 +120,29 @@ class _RepairingCache(FunctionCache):
             _watch.unkept = True
 
 
-_stamps: dict[str, tuple[float, int]] = {}
-"""Time and size of each file when it was read: a program that goes on while another version takes the place of its
-files compiles what it has read, and must not keep that as the code of the other version."""
+_digests: dict[str, bytes] = {}
+"""Of each file when it was read: a program that goes on while another version takes the place of its files compiles
+what it has read, and must not keep that as the code of the other version. Their times and sizes may be the same."""
 
 
-def _stamp(file: str) -> tuple[float, int]:
-    stat = Path(file).stat()
-    return stat.st_mtime, stat.st_size
+def _digest(file: str) -> bytes:
+    return hashlib.sha256(Path(file).read_bytes()).digest()
 
 
-def _called(function: Any, known: set[Any]) -> set[Any]:
-    """All compiled functions that one calls, directly or through others: by the names in it."""
+def _named(function: Any) -> list[Any]:
+    """What the names in a function may mean: in its file, and in the modules among these."""
     names, space = function.__code__.co_names, function.__globals__
-    for value in [space.get(name) for name in names]:
-        for item in [value, *(vars(value).get(name) for name in names)] if isinstance(value, ModuleType) else [value]:
-            callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)  # `_defn`: of an intrinsic.
-            if callee is not None and callee not in known:
-                known.add(callee)
-                _called(callee, known)
+    places: list[dict[str, Any]] = [space, *(vars(space[n]) for n in names if isinstance(space.get(n), ModuleType))]
+    return [place.get(name) for place in places for name in names]
+
+
+def _called(function: Any, known: dict[Any, None]) -> dict[Any, None]:
+    """All compiled functions that one calls, directly or through others, in the order of the names in it."""
+    for item in _named(function):
+        callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)  # `_defn`: of an intrinsic.
+        if callee is not None and callee not in known:
+            known[callee] = None
+            _called(callee, known)
     return known
 
 
@@ -278,7 +286,7 @@ def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
 
     def compile_function(function: Callable[..., Any]) -> Any:
         with suppress(OSError):
-            _stamps[function.__code__.co_filename] = _stamp(function.__code__.co_filename)
+            _digests[function.__code__.co_filename] = _digest(function.__code__.co_filename)
         compiled: Any = numba.njit(nogil=True, **options)(function)  # pyright: ignore[reportUnknownVariableType, reportUnknownMemberType]
         try:
             compiled._cache = _RepairingCache(function)  # What `cache=True` does, with numba's own class.

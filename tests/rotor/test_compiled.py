@@ -7,6 +7,7 @@ import os
 import re
 import sys
 from pathlib import Path
+from types import CodeType, ModuleType
 from typing import Any
 
 import pytest
@@ -65,6 +66,7 @@ def two(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, Path]:
     """A module with a function, and one with a kernel that calls it."""
     monkeypatch.syspath_prepend(tmp_path)
     monkeypatch.delitem(sys.modules, "called_by_a_test", raising=False)
+    monkeypatch.setattr(sys, "dont_write_bytecode", True)  # Python finds that by times and sizes.
     inner, outer = tmp_path / "called_by_a_test.py", tmp_path / "kernels.py"
     inner.write_text("from rotor.support.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
     outer.write_text(
@@ -84,6 +86,25 @@ def test_kept_code_follows_the_functions_it_calls(two: tuple[Path, Path]):
     del sys.modules["called_by_a_test"]
     changed = module(outer).kernel
     assert (changed(1.0), hits(changed)) == (220.0, 0)
+    stat = inner.stat()  # Packages and images may give the files of all versions one time.
+    inner.write_text(inner.read_text().replace("x + 21.0", "x + 31.0"))
+    os.utime(inner, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+    del sys.modules["called_by_a_test"]
+    changed = module(outer).kernel
+    assert (changed(1.0), hits(changed)) == (320.0, 0)
+
+
+@pytest.mark.parametrize("said", ["from called_by_a_test import TEN", "import called_by_a_test"])
+def test_kept_code_follows_the_constants_of_other_files(two: tuple[Path, Path], said: str):
+    """numba compiles their values into the code, and no digest tells of a file that has constants alone."""
+    inner, outer = two
+    name = "TEN" if "from" in said else "called_by_a_test.TEN"
+    outer.write_text(SOURCE.replace("import numba", said).replace("1.0", name), encoding="utf-8")
+    for value, read in ((10.0, 0), (10.0, 1), (12.5, 0), (12.5, 1)):
+        inner.write_text(f"TEN = {value}\n", encoding="utf-8")
+        sys.modules.pop("called_by_a_test", None)
+        kernel = module(outer).kernel
+        assert (kernel(1.0), hits(kernel)) == (1.0 + value, read)
 
 
 @pytest.mark.parametrize("ending", ["nbi", "nbc"])
@@ -180,6 +201,17 @@ def test_every_kernel_is_compiled_here():
     compiles = re.compile(r"\b(njit|jit|vectorize|guvectorize|stencil)\(")
     users = [path.name for path in home.rglob("*.py") if compiles.search(path.read_text(encoding="utf-8"))]
     assert users == ["compiled.py"]
+
+
+def test_kept_code_is_found_by_all_that_is_compiled_into_it():
+    """Values of other kinds, and the names in a function within a kernel, would not be seen."""
+    own = [one.py_func for one in _watch.kernels if one.py_func.__module__.startswith("rotor.")]
+    for function in {inner for kernel in own for inner in compiled._called(kernel, {kernel: None})}:
+        code = function.__code__
+        assert not any(isinstance(one, CodeType) for one in code.co_consts), function
+        for value in filter(None, (function.__globals__.get(name) for name in code.co_names)):
+            known = int, float, tuple, ModuleType
+            assert isinstance(value, known) or hasattr(value, "py_func") or hasattr(value, "_defn"), (function, value)
 
 
 class Terminal(io.StringIO):
