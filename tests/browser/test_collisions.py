@@ -18,7 +18,7 @@ COLLIDE, FRAME = (
 )
 WINDOWS = {"desk": [(1500, 940), (1280, 720)], "sheet": [(812, 734), (390, 844), (844, 390)]}
 """Sizes of one page: in each state it is drawn out, or turned as a telephone is. One with a sheet opens with it."""
-CAMERA = "() => window.__viserMutable.camera.position.toArray().map(x => Math.round(10 * x))"
+CAMERA = "() => [RX.covered, window.__viserMutable.camera.position.toArray().map(x => Math.round(10 * x))]"
 FAR = 3
 """[dm] between a camera that has followed its room and one that is aimed anew; it stands 300 dm away."""
 States = Iterator[tuple[str, str]]
@@ -33,12 +33,13 @@ def found(watched: Watched, view: str) -> list[str]:
     """What is wrong in this state."""
     watched.page.mouse.move(1, 1)  # Where it pressed last it would bring the hint of what stands there now.
     look = f"view => [...({COLLIDE})(), ...(view && ({FRAME})(view))]"
-    stands = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
+    covered, stands = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
     faults = watched.page.evaluate(look, view) and watched.at_rest(lambda: watched.page.evaluate(look, view))
     if view:
         send(watched, "aim")
-        framed = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
-        if max(abs(now - then) for now, then in zip(framed, stands, strict=True)) > FAR:
+        now_covered, framed = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
+        far = max(abs(now - then) for now, then in zip(framed, stands, strict=True)) > FAR
+        if far and now_covered == covered:  # The notice of a search grows with its words.
             faults.append(f"{view} is not framed anew: the camera stood at {stands} dm, an aim puts it at {framed} dm")
     return faults
 
