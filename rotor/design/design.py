@@ -62,7 +62,7 @@ BEYOND_DOCUMENT = (
 
 TRIM_AZIMUTHS, SHOWN_AZIMUTHS = 48, 120
 """Azimuths of a trim without a wake, and the least of the fields on the disk. Our choice: 48, on which dynamic stall is
-followed in any case, err less than 40 elements do (`docs/validation/grid.md`, as `rotor validate grid` writes it)."""
+followed in any case, err less than 40 elements do (`docs/validation/grid.md`, which `make trust` writes)."""
 
 
 @dataclass(frozen=True)
