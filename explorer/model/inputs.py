@@ -289,7 +289,7 @@ def inputs_of(design: Design) -> Inputs:
         **{name: row.as_input(row.of(design)) for name, row in FLIGHT.items()},
         **{name: design.unusual.get(row.name) for name, row in HELD.items()},
         **{name: row.of(design) for name, row in MODELS.items()},
-        **grid_asked(design.models),
+        **grid_asked(design.models, preset_models(design.preset)),
     )
     if design.aircraft.isolated:
         start = replace(start, mass_t=reference_mass_t(design.aircraft))

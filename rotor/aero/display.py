@@ -25,6 +25,7 @@ from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
 from rotor.airfoil.stall_onset import STALLED
+from rotor.design.design import SHOWN_AZIMUTHS
 from rotor.engine.waves import wave_grid
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
@@ -53,7 +54,7 @@ def as_asked(problem: Problem, elements: BladeElements) -> tuple[Problem, BladeE
     The same two where the trim has as many.
     """
     solved = len(problem.disk.psi)
-    times = -(-problem.design.models.azimuths // solved)
+    times = -(-(problem.design.models.azimuths or SHOWN_AZIMUTHS) // solved)
     if times <= 1:
         return problem, elements
     finer = on_azimuths(problem, times * solved)

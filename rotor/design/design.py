@@ -60,6 +60,10 @@ BEYOND_DOCUMENT = (
 )  # fmt: skip
 """Switches of `Models` for effects that the document does not have."""
 
+TRIM_AZIMUTHS, SHOWN_AZIMUTHS = 48, 120
+"""Azimuths of a trim without a wake, and the least of the fields on the disk. Our choice: 48, on which dynamic stall is
+followed in any case, err less than 40 elements do (`docs/validation/grid.md`, which `make trust` writes)."""
+
 
 @dataclass(frozen=True)
 class Models:
@@ -122,8 +126,9 @@ class Models:
     """Only the losses that the document has: whatever the switches of `BEYOND_DOCUMENT` say."""
     elements: int = 40
     """Blade elements, equally wide (eq. 3.14), unless the inflow is that of a lifting line."""
-    azimuths: int = 120
-    """Azimuth stations; with a lifting line those shown."""
+    azimuths: int | None = None
+    """Azimuth stations of trim and fields; with a lifting line of the fields alone. None: a trim on `TRIM_AZIMUTHS`,
+    fields on `SHOWN_AZIMUTHS`."""
     panels: int = 24
     """Elements of a blade that is a lifting line, finer towards the tip."""
     line_azimuths: int = 24
@@ -140,7 +145,7 @@ class Models:
             raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
         if self.panels < 4 or self.line_azimuths < 8:
             raise ValueError(f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more")
-        if not 8 <= self.azimuths <= 2000:
+        if self.azimuths is not None and not 8 <= self.azimuths <= 2000:
             raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
 
 
@@ -277,7 +282,7 @@ class Design:
                 for name in ("hover_inflow", "low_speed", "loss_on", *switches, *quantities.OPTIONS)
                 if name in switches or getattr(self.models, name) != getattr(preset, name)
             },
-            **{name: asked for name, asked in grid_asked(self.models).items() if asked is not None},
+            **{name: asked for name, asked in grid_asked(self.models, preset).items() if asked is not None},
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
             **({} if stand is None else {"trim": self.models.trim, "stand": stand.record()}),
@@ -488,6 +493,7 @@ THESIS_MODELS = Models(
     tail_rotor_solved=False,
     loss_on="inflow",
     document_losses=True,
+    azimuths=120,
 )
 
 
@@ -509,12 +515,12 @@ def with_grid(models: Models, elements: int | None = None, azimuths: int | None 
     return replace(models, **{name: value for name, value in asked.items() if value is not None})
 
 
-def grid_asked(models: Models) -> dict[str, int | None]:
-    """The arguments of `with_grid` that give these models; None for the numbers of a preset."""
-    plain, asked_for = FLIGHT_MODELS, dict[str, int | None]()
+def grid_asked(models: Models, plain: Models) -> dict[str, int | None]:
+    """The arguments of `with_grid` that make these models of a preset's; None for its own numbers."""
+    asked_for = dict[str, int | None]()
     for asked, line in (("elements", "panels"), ("azimuths", "line_azimuths")):
         values = {getattr(models, name) for name in (asked, line) if getattr(models, name) != getattr(plain, name)}
-        asked_for[asked] = min(values, default=None)
+        asked_for[asked] = min(values - {None}, default=None)
     return asked_for
 
 

@@ -279,7 +279,7 @@ _MODELS = (
         key="elements", section="models",
     ),
     Quantity(
-        "azimuths", "whole", "azimuth stations around the disk (default 120; 24 with the lifting line)",
+        "azimuths", "whole", "azimuth stations (default 48, of the preset thesis 120; the lifting line has 24)",
         key="azimuths", section="models",
     ),
     Quantity("models", "object", "all model choices at once"),

@@ -136,7 +136,7 @@ def _models(study: Study) -> dict[str, Value]:
     if "preset" in study.axis_names:
         return given
     models = asdict(preset_models(str(given.get("preset", "flight"))))
-    return {name: value for name, value in models.items() if name not in study.axis_names} | given
+    return {name: value for name, value in models.items() if value is not None and name not in study.axis_names} | given
 
 
 def arrow_modules() -> tuple[Any, Any]:

@@ -155,7 +155,7 @@ def report(answer: dict[str, Any]) -> str:
     minutes = 1e5 / (2.0 * 60.0 * batch["as a study works them off"])
     lines = [
         "milliseconds of processor time (median), flight preset, mean of µ 0.10…0.35; lifting line and elastic blade",
-        "where nothing else is said, linear inflow on 40 × 120\n",
+        "where nothing else is said, linear inflow on 40 × 48\n",
         *(_line(name, value, "10.3f", targets.get(name), "≤") for name, value in answer["ms"].items()),
         "\nunsteady flow and dynamic stall over steady sections, medians of pairs\n",
         *(_line(name, value, "10.2f", TARGETS_UNSTEADY[name], "≤") for name, value in unsteady.items()),

@@ -15,6 +15,7 @@ import numpy as np
 from scipy.optimize import root
 
 from rotor import Solution, make_design, solve
+from rotor.aero.problem import grid_of
 from rotor.airfoil.sections import load_section
 from rotor.support.arrays import Array
 from rotor.support.assets import asset_path
@@ -98,7 +99,7 @@ def dynbem_case(solution: Solution) -> tuple[Any, Any, Any]:
         control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),
     )
     table = dynbem.TabulatedPolar(alpha, np.ascontiguousarray(polar.cl), np.ascontiguousarray(polar.cd))
-    model = dynbem.PittPetersModel(definition, table, design.models.azimuths)
+    model = dynbem.PittPetersModel(definition, table, grid_of(design)[1])
     speed, tilt = design.airspeed, controls.shaft_tilt
     # World axes: x forward, z down; azimuth from the nose, so both cyclics change sign.
     inputs = dynbem.RotorInputs(

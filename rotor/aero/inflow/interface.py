@@ -17,7 +17,7 @@ from rotor.aero.disk import Disk
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import DiskFlow
 from rotor.aero.section import CHANNELS, FORCES, PAIRS, section
-from rotor.design.design import Models
+from rotor.design.design import TRIM_AZIMUTHS, Models
 from rotor.design.quantities import LossOn
 from rotor.engine.linearise import Nodes
 from rotor.engine.memory import LagFactors
@@ -166,7 +166,7 @@ class InflowModel(ABC):
     def grid(self, models: Models, blades: int) -> tuple[int, int]:
         """Elements and azimuths on which it is solved: those asked for. ValueError for more than it can have."""
         del blades
-        return models.elements, models.azimuths
+        return models.elements, models.azimuths or TRIM_AZIMUTHS
 
     @abstractmethod
     def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> InflowTerms:

@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+from rotor.design.design import TRIM_AZIMUTHS
 from rotor.support.chart import INK, Axis, Chart, Line, Points
 from rotor.validation.thesis import actuation, disk_figures, implementation, ladder, optimum_twist, twist_effect
 from rotor.validation.thesis.report import Report, thesis
@@ -122,15 +123,26 @@ def _grid(known: dict[str, Report]) -> TrustSet:
         )
         for where, number in (("hover", "3.7"), ("µ 0.30", "3.8"))
     ]
-    line = {f"{mu:g}": disk_figures.line_error(mu) for mu in disk_figures.LINE_SPEEDS}
+    speeds = f"µ {', '.join(f'{mu:g}' for mu in disk_figures.SPEEDS)}"
+    line = [disk_figures.line_error(mu) for mu in disk_figures.SPEEDS]
+    linear, added = zip(*map(disk_figures.linear_errors, disk_figures.SPEEDS), strict=True)
     error = max(known["3.9"].numbers[f"{preset}_error_at_100"] for preset in presets)
     area = known["2.8"].numbers
     rows += [
         words.bound("Power at 100 azimuths, µ 0.30, linear inflow", "720 azimuths", error, 1e-5, "test_figure_3_9"),
         words.row(
-            f"Power of the default model, 24 panels × 24 azimuths, µ {', '.join(line)}",
-            ", ".join(f"{100.0 * error:+.2f}" for error in line.values()) + " %",
-            max(line.values(), key=abs),
+            f"Power at −8° of twist, linear inflow on {TRIM_AZIMUTHS} azimuths, {speeds}",
+            ", ".join(f"{100.0 * error:+.3f}" for error in linear) + " %",
+            max(linear, key=abs),
+            1e-4,
+            test="test_the_grid_of_linear_inflow",
+            against="240 azimuths",
+            note=f"What −16° of twist adds: by {', '.join(f'{error:+.2f}' for error in added)} kW.",
+        ),
+        words.row(
+            f"Power of the default model, 24 panels × 24 azimuths, {speeds}",
+            ", ".join(f"{100.0 * error:+.2f}" for error in line) + " %",
+            max(line, key=abs),
             1e-3,
             test="test_the_grid_of_the_default_model",
             against="48 × 48",

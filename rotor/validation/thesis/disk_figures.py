@@ -11,7 +11,7 @@ from functools import lru_cache
 import numpy as np
 
 from rotor.aero.switches import with_switches
-from rotor.design.design import with_models
+from rotor.design.design import TRIM_AZIMUTHS, with_models
 from rotor.files.make_design import make_design
 from rotor.support.chart import Axis, Chart, Series
 from rotor.trim.solution import DiskFields
@@ -117,7 +117,17 @@ def power_on(name: str, twist: str, mu: float, elements: int, azimuths: int) -> 
     return solve(with_models(design, elements=elements, azimuths=azimuths)).require().power.main_rotor / 1e3
 
 
-LINE_SPEEDS = (0.1, 0.2, 0.3, 0.35)
+SPEEDS = (0.1, 0.2, 0.3, 0.35)
+"""Advance ratios of the errors of the default grids."""
+
+
+def linear_errors(mu: float) -> tuple[float, float]:
+    """Errors on the azimuths of linear inflow against 240: power with −8° of twist [-], what −16° add to it [kW]."""
+    few, fine = (
+        [power_on(FLIGHT_LINEAR, f"linear:{rate}", mu, 40, azimuths) for rate in (-8, -16)]
+        for azimuths in (TRIM_AZIMUTHS, 240)
+    )
+    return few[0] / fine[0] - 1.0, few[1] - few[0] - (fine[1] - fine[0])
 
 
 @lru_cache(maxsize=16)

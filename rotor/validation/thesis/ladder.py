@@ -54,6 +54,7 @@ def rung_design(on: Collection[str], mu: float, twist: str = "linear:-16", inflo
         inflow=inflow or (own if "wake" in on else stated).inflow,
         low_speed=(own if "wake" in on else stated).low_speed,
         loss_on=(own if "wake" in on else stated).loss_on,
+        azimuths=(own if "wake" in on else stated).azimuths,
         # Equation (3.3) has one lift-curve slope, which a table over angle of attack does not.
         hover_inflow=(own if "table" in on else stated).hover_inflow,
         trim="propulsive" if "cyclic" in on else "thrust",

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,6 +17,7 @@ from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.problem import build_problem
 from rotor.aero.switches import with_switches
 from rotor.design.design import Models
+from rotor.files.design_file import design_from_record
 from rotor.trim import Analysis, analyse
 
 FAST, HEAVY = 0.35, 9500.0
@@ -88,6 +90,23 @@ def test_what_the_samples_resolve_is_exact(source: int):
     for wave in range((source + 1) // 2):
         for function in (np.cos, np.sin):
             assert_allclose(function(wave * psi) @ matrix, function(wave * fine), atol=1e-13)
+
+
+@pytest.mark.parametrize(
+    ("given", "solved", "shown"),
+    [({"inflow": "drees"}, 48, 144), ({"inflow": "drees", "azimuths": 36}, 36, 36), ({}, 24, 120),
+     ({"inflow": "drees", "azimuths": 120}, 120, 120), ({"azimuths": 36}, 36, 36), ({"preset": "thesis"}, 120, 120),
+     ({"preset": "thesis", "inflow": "lifting-line"}, 24, 120), ({"preset": "thesis", "azimuths": 48}, 48, 48)],
+    ids=str,
+)  # fmt: skip
+def test_azimuths_of_trim_and_fields(given: dict[str, Any], solved: int, shown: int):
+    """Those asked for, else those of the inflow model and what a picture needs; a design file keeps what was asked."""
+    design = make_design(mu=0.2, **given)
+    trim = analyse(design)
+    assert len(trim.linear.problem.disk.psi) == solved
+    assert trim.solution.disk.theta.shape[1] == shown
+    assert design.to_dict().get("azimuths") == given.get("azimuths")
+    assert design_from_record(design.to_dict()) == design
 
 
 class TestFields:

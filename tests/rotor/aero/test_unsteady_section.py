@@ -163,10 +163,11 @@ def test_rates_of_a_trim_are_those_of_its_motion() -> None:
     """θ'' and the rates of U_T and U_P are the Fourier derivatives of the channels, but for the inflow in U_P."""
     design = make_design(mu=0.3, inflow="uniform", pitch_per_rev="3:1:60", off="tip-loss,hub-loss")
     e = analyse(design).linear
-    rates, waves = e.elements.rates, np.fft.rfftfreq(120, 1.0 / 120)
+    rates, n = e.elements.rates, len(e.elements.beta)
+    waves = np.fft.rfftfreq(n, 1.0 / n)
 
     def derivative(field: Array) -> Array:
-        return np.fft.irfft(1j * waves * np.fft.rfft(field, axis=1), n=120, axis=1)
+        return np.fft.irfft(1j * waves * np.fft.rfft(field, axis=1), n=n, axis=1)
 
     assert_allclose(rates[DTH], derivative(e.elements.rate), atol=1e-10)
     assert_allclose(rates[DUT], derivative(e.elements.u_t), atol=1e-10)

@@ -143,7 +143,7 @@ def test_any_measure_of_the_blade_elements(made: Design):
         assert_allclose(found @ bend, slope, rtol=0, atol=1e-6 * np.abs(found).max() + 1e-10)
 
 
-@pytest.mark.parametrize("models", [{}, {"bending": True}, {"inflow": "pitt-peters"}], ids=str)
+@pytest.mark.parametrize("models", [{}, {"bending": True}, {"inflow": "pitt-peters", "azimuths": 120}], ids=str)
 def test_factors_made_at_a_trim_spare_passes_and_change_no_answer(models: dict[str, Any]) -> None:
     """Beside the whole Jacobian with what forces remember, solved directly. The last factors of a blade that bends were
     made so near its trim that none are better."""

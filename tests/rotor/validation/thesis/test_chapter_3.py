@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.validation.thesis.disk_figures import line_error
+from rotor.validation.thesis.disk_figures import line_error, linear_errors
 from rotor.validation.thesis.report import Agreement, Report, ReportTable
 from rotor.validation.thesis.twist_effect import crossings
 
@@ -83,6 +83,15 @@ def test_the_grid_of_the_default_model():
     """What the trust page says of it: 0.6 per cent at µ 0.1, where its azimuths are coarse, and less at speed."""
     assert abs(line_error(0.1)) < 7e-3
     assert abs(line_error(0.2)) < 1e-3
+
+
+def test_the_grid_of_linear_inflow():
+    """What the trust page says of it: less than 0.05 % of the power, and 1 kW where twists are compared."""
+    at_speed = [linear_errors(mu) for mu in (0.2, 0.35)]
+    for power, added in at_speed:
+        assert abs(power) < 5e-4
+        assert abs(added) < 1.0
+    assert any(power for power, _ in at_speed)
 
 
 def test_table_3_1(report: Make):
