@@ -60,6 +60,21 @@ trails at 81° to the shaft. Our choice: with 1.5 power up to µ 0.06 is 0.5 to 
 theory."""
 
 
+@compiled(error_model="numpy")
+def _sink(begin: Any, y: Any, t: Any, course: Any, z: Any) -> None:
+    """Lower what left the blade at (begin, y, z) the times t ago, (places, radii) and (places,)."""
+    mu_x, mu_z, lambda0, skewed, first, aft, outer = course
+    for k in range(z.shape[0]):
+        for r in range(z.shape[1]):
+            inside, outward = t[k], min(abs(y[k, r]), 1.0)
+            if mu_x > 0.0:
+                way = math.sqrt(max(1.0 - y[k, r] * y[k, r], 0.0)) - begin[k, r]
+                inside = min(max(way, 0.0), mu_x * t[k]) / mu_x
+            sunk = (first - outer * outward * outward * outward) * (2.0 * t[k] - inside)
+            sunk += aft * inside * (begin[k, r] + 0.5 * mu_x * inside)
+            z[k, r] -= mu_z * t[k] + lambda0 * (t[k] + skewed * (sunk - t[k]))
+
+
 @dataclass(frozen=True, kw_only=True)
 class WakeCourse(DiskFlow):
     """The quantities on which the course of a wake depends."""
@@ -95,18 +110,13 @@ class WakeCourse(DiskFlow):
     def nodes(self, psi_b: Array, ages: Array, r: Array) -> Array:
         """Positions of what left the blades that are now at psi_b, (blades, ages, radii, 3)."""
         released = psi_b[:, None] - ages
-        cos, sin = np.cos(released)[..., None], np.sin(released)[..., None]
-        begin, y, t = r * cos, r * sin, ages[:, None]
-        outward = np.minimum(np.abs(y), 1.0) ** 3
-        first, aft, outer = self.descent
-        inside = t + np.zeros_like(y)
-        if self.mu_x > 0.0:
-            way = np.sqrt(np.maximum(1.0 - y * y, 0.0)) - begin
-            inside = np.clip(way, 0.0, self.mu_x * t) / self.mu_x
-        sunk = (first - outer * outward) * (2.0 * t - inside) + aft * inside * (begin + 0.5 * self.mu_x * inside)
-        sunk = t + self.skewed * (sunk - t)
-        z = self.flapping(released)[..., None] * r - self.mu_z * t - self.lambda0 * sunk
-        return np.stack([begin + self.mu_x * t, y, z], axis=-1)
+        begin, y, z = (
+            (each[..., None] * r).reshape(-1, len(r))
+            for each in (np.cos(released), np.sin(released), self.flapping(released))
+        )
+        t = np.tile(ages, len(psi_b))
+        _sink(begin, y, t, (self.mu_x, self.mu_z, self.lambda0, self.skewed, *self.descent), z)
+        return np.stack([begin + self.mu_x * t[:, None], y, z], axis=-1).reshape(*released.shape, len(r), 3)
 
 
 def tip_core(chord: float, thrust: float, blades: int, reynolds: float) -> tuple[float, float]:
@@ -169,56 +179,71 @@ class LiftingLine:
 
 
 @compiled(error_model="numpy", fastmath=True)
-def _sum_lines(targets: Any, ends: Any, core: Any, young: Any, places: Any, shares: Any, first: int, out: Any) -> None:
+def _sum_lines(
+    targets: Any, nodes: Any, ends: Any, core: Any, young: Any, places: Any, shares: Any, first: int, out: Any
+) -> None:
     """Add the downwash of unit lines at targets to rows of `out`, (rows, azimuths, targets).
 
-    targets: positions and normals, (6, targets). ends: A and B, (lines, 6). core: c⁴, (lines,), and `young` instead at
-    each target, (targets,), where it is negative. places: row and the two ages in steps of each line's circulation,
+    targets: positions and normals, (6, targets). nodes: (nodes, 3). ends: nodes A and B, (lines, 2); a line that begins
+    where the one before ends has the distance from there already. core: c⁴, (lines,), and `young` instead at each
+    target, (targets,), where it is negative. places: row and the two ages in steps of each line's circulation,
     (lines, 3), the blade being at azimuth `first`; shares: what each of the two has, (lines, 2).
     """
     n, m = targets.shape[1], out.shape[1]
     x, y, z, u, v, w = targets[0], targets[1], targets[2], targets[3], targets[4], targets[5]
-    four, induced = np.empty(n, np.float32), np.empty(n, np.float32)
+    far, induced, here, at = np.empty((2, n), np.float32), np.empty(n, np.float32), 0, -1
     for s in range(len(ends)):
-        ax, ay, az, bx, by, bz = ends[s, 0], ends[s, 1], ends[s, 2], ends[s, 3], ends[s, 4], ends[s, 5]
+        ax, ay, az = nodes[ends[s, 0], 0], nodes[ends[s, 0], 1], nodes[ends[s, 0], 2]
+        bx, by, bz = nodes[ends[s, 1], 0], nodes[ends[s, 1], 1], nodes[ends[s, 1], 2]
         l2 = (ax - bx) * (ax - bx) + (ay - by) * (ay - by) + (az - bz) * (az - bz)
-        l4 = l2 * l2
-        if core[s] < 0.0:
+        fixed = max(core[s], np.float32(0.0)) * l2 * l2 + np.float32(1e-20)
+        own = l2 * l2 if core[s] < 0.0 else np.float32(0.0)
+        if ends[s, 0] != at:
             for t in range(n):
-                four[t] = young[t] * l4
-        else:
-            for t in range(n):
-                four[t] = core[s] * l4
+                dx, dy, dz = x[t] - ax, y[t] - ay, z[t] - az
+                far[here, t] = math.sqrt(dx * dx + dy * dy + dz * dz + np.float32(1e-12))
+        there, at = 1 - here, ends[s, 1]
         for t in range(n):
             dx, dy, dz = x[t] - ax, y[t] - ay, z[t] - az
             ex, ey, ez = x[t] - bx, y[t] - by, z[t] - bz
-            a2, b2 = dx * dx + dy * dy + dz * dz, ex * ex + ey * ey + ez * ez
-            a, b = math.sqrt(a2 + np.float32(1e-12)), math.sqrt(b2 + np.float32(1e-12))
+            a, b = far[here, t], math.sqrt(ex * ex + ey * ey + ez * ez + np.float32(1e-12))
+            far[there, t] = b
             cx, cy, cz = dy * ez - dz * ey, dz * ex - dx * ez, dx * ey - dy * ex
             c2 = cx * cx + cy * cy + cz * cz
             # (1 − a·b/|a||b|)(|a| + |b|) = ½(l² − (|a| − |b|)²)(|a| + |b|)/|a||b|, without the loss of digits.
             near = np.float32(0.5) * (l2 - (a - b) * (a - b)) * (a + b)
             down = -(cx * u[t] + cy * v[t] + cz * w[t]) * near
-            induced[t] = down / (a * b * math.sqrt(c2 * c2 + four[t] + np.float32(1e-20)))
+            induced[t] = down / (a * b * math.sqrt(c2 * c2 + (fixed + own * young[t])))
+        here = there
         for k in range(2):  # One after the other: as two sums in one loop they might be the same, so not in vectors.
-            to, share = out[places[s, 0], (first - places[s, 1 + k]) % m], shares[s, k]
-            for t in range(n):
-                to[t] += share * induced[t]
+            row, column, share = places[s, 0], (first - places[s, 1 + k]) % m, shares[s, k]
+            for t in range(n if share else 0):  # As rows of their own they would be counted by references: slower.
+                out[row, column, t] += share * induced[t]
 
 
 @dataclass(frozen=True, eq=False)
-class WakeLines:
-    """Lines of the wakes of all blades at a course; the row of each is an edge, panel, or one of a strip."""
+class _Lattice:
+    """How the lines of a wake hang together, wherever it lies; the row of each is an edge, panel, or one of a strip."""
 
-    ends: Singles
-    """(azimuths, lines, 6)."""
-    core: Singles
+    ends: Integers
+    """Nodes where each line begins and ends, (lines, 2)."""
+    cores: Integers
+    """Place of each line's core among those of `build_wake`, (lines,)."""
     places: Integers
     shares: Singles
     rows: tuple[int, ...]
     """First rows of: near edges, near panels, bound lines, far edges, far strips, far edges with mean circulation."""
     strips: Singles
     """By which circulations of strips become those of panels, (panels, strips)."""
+
+
+@dataclass(frozen=True, eq=False)
+class WakeLines(_Lattice):
+    """Lines of the wakes of all blades at a course."""
+
+    nodes: Singles
+    """(azimuths, nodes, 3)."""
+    core: Singles
 
 
 def _groups(panels: int) -> Integers:
@@ -236,77 +261,81 @@ def _strip_weights(line: LiftingLine) -> Array:
     return out
 
 
+_OWN, _LEAST, _SHED, _FAR = range(4)
+"""Cores that lines have: of whose blade it is, the least, that of shed lines, and the first by age and edge."""
+
+
+def _steps(line: LiftingLine) -> tuple[int, int, float]:
+    """Steps to the end of the near wake and to that of the strips, and a step [rad]."""
+    step = 2.0 * math.pi / line.azimuths
+    return max(round(line.near / step), 1), TURNS * line.azimuths, step
+
+
 def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     """The lines of the wakes of blades at azimuths psi."""
-    n, step = line.panels, 2.0 * math.pi / line.azimuths
-    near, turns = max(round(line.near / step), 1), TURNS * line.azimuths
-    picked = _groups(n)
-    strips = len(picked) - 1
-    rows = tuple(np.cumsum([0, n + 1, n, n, strips + 1, strips, strips + 1]).tolist())
-    young = course.nodes(psi, np.arange(near * PIECES + 1) * step / PIECES, line.edges)
-    ages = np.arange(near, turns + 1, dtype=np.float64) * step
-    old = course.nodes(psi, ages, line.edges[picked])
+    picked, (near, turns, step) = line.edges[_groups(line.panels)], _steps(line)
     begin, end = turns * step, LENGTH / max(course.speed, LENGTH / OLDEST)
     end = max(end, begin + FAR_STEP)  # The last piece is as long as is left: nothing jumps with the number of pieces.
-    oldest = np.append(np.arange(begin, end - 1e-9, FAR_STEP), end)
-    last = course.nodes(psi, oldest, line.edges[picked])
-    parts = _Parts(len(psi))
+    last = np.append(np.arange(begin, end - 1e-9, FAR_STEP)[1:], end)
+    young = course.nodes(psi, np.arange(near * PIECES + 1) * step / PIECES, line.edges)
+    half = 0.5 * (young[:, 0] + young[:, 1])  # What the first piece sheds, at its middle.
+    old = course.nodes(psi, np.append(np.arange(near, turns + 1) * step, last), picked)
+    nodes = [each.reshape(len(psi), -1, 3) for each in (young, half, old)]
+    tip = np.sqrt(course.core[0] + course.core[1] * (np.arange(near, turns) + 0.5) * step)
+    far = np.maximum(tip[:, None], np.where(picked < ROOT, ROOT_CORE, FAR_CORE)) ** 4
+    lattice, core = _lattice(line, len(last)), np.append([-1.0, LEAST_CORE**4, SHED_CORE**4], far).astype(np.float32)
+    return WakeLines(**vars(lattice), nodes=np.concatenate(nodes, axis=1, dtype=np.float32), core=core[lattice.cores])
+
+
+@bytes_cache
+@read_only
+def _lattice(line: LiftingLine, pieces: int) -> _Lattice:
+    """That of wakes with so many trailing pieces beyond the strips."""
+    (near, turns, _), n, strips = _steps(line), line.panels, len(_groups(line.panels)) - 1
+    rows = tuple(np.cumsum([0, n + 1, n, n, strips + 1, strips, strips + 1]).tolist())
+    young = np.arange((near * PIECES + 1) * (n + 1)).reshape(-1, n + 1)
+    half = young[-1:] + n + 1
+    old = half[0, -1] + 1 + np.arange((turns - near + 1 + pieces) * (strips + 1)).reshape(-1, strips + 1)
+    parts = list[Any]()
+
+    def add(a: Integers, b: Integers, row: int, core: Any, ages: Any, shares: Any, order: Any = "C") -> None:
+        """Lines from a to b, (ages, radii), age by age, or radius by radius with "F"; core: place of it."""
+        columns: list[Any] = [a, b, core, row + np.arange(a.shape[1])]
+        columns += (np.reshape(each, (-1, 1)) for each in (*ages, *np.transpose(shares)))
+        parts.append(np.stack([np.broadcast_to(each, a.shape).ravel(order) for each in columns], axis=1))
+
+    def trailers(nodes: Integers, row: int, core: Any, ages: Any, shares: Any) -> None:
+        """Lines from age to age."""
+        add(nodes[:-1], nodes[1:], row, core, ages, shares, "F")
+
+    def across(nodes: Integers, row: int, core: int, ages: Any, shares: Any) -> None:
+        """Lines from radius to radius."""
+        add(nodes[:, :-1], nodes[:, 1:], row, core, ages, shares)
 
     # Trailers and shed lines of the near wake. A piece carries the circulation of its middle.
     k, later = np.divmod(np.arange(near * PIECES), PIECES)
     later = (later + 0.5) / PIECES
-    parts.trailers(young, rows[0], -1.0, (k, k + 1), np.stack([1.0 - later, later], axis=1))
-    half = 0.5 * (young[:, 0] + young[:, 1])  # What the first piece sheds, at its middle.
-    parts.across(half[:, None], rows[1], -1.0, ([0], [1]), np.array([[-0.5, 0.5]]) / PIECES)
+    trailers(young, rows[0], _OWN, (k, k + 1), np.stack([1.0 - later, later], axis=1))
+    across(half, rows[1], _OWN, (0, 1), np.array([[-0.5, 0.5]]) / PIECES)
     inner = np.arange(1, near * PIECES)
     whole, where = np.divmod(inner, PIECES)
     joint = where == 0  # Between two steps: half a piece of either.
-    ones = np.where(joint, whole - 1, whole), whole + 1
     share = np.where(joint, 0.5, 1.0)[:, None] * np.array([-1.0, 1.0]) / PIECES
-    parts.across(young[:, inner], rows[1], LEAST_CORE**4, ones, share)
-    parts.across(young[:, -1:], rows[1], SHED_CORE**4, ([near - 1], [near]), np.array([[-0.5, 0.5 - PIECES]]) / PIECES)
-    parts.across(young[:, :1], rows[2], LEAST_CORE**4, ([0], [0]), np.array([[1.0, 0.0]]))
+    across(young[inner], rows[1], _LEAST, (np.where(joint, whole - 1, whole), whole + 1), share)
+    across(young[-1:], rows[1], _SHED, (near - 1, near), np.array([[-0.5, 0.5 - PIECES]]) / PIECES)
+    across(young[:1], rows[2], _LEAST, (0, 0), np.array([[1.0, 0.0]]))
 
     # Strips: trailers carry the mean of a step's two ends, what changes from step to step is shed.
-    k = np.arange(near, turns)
-    tip = np.sqrt(course.core[0] + course.core[1] * (k + 0.5) * step)
-    core = np.maximum(tip[:, None], np.where(line.edges[picked] < ROOT, ROOT_CORE, FAR_CORE)) ** 4
-    parts.trailers(old, rows[3], core, (k, k + 1), np.full((len(k), 2), 0.5))
-    share = np.broadcast_to([-0.5, 0.5], (len(k), 2)).copy()
+    k, count = np.arange(near, turns), turns - near
+    core = _FAR + np.arange(count * (strips + 1)).reshape(count, -1)
+    trailers(old[: count + 1], rows[3], core, (k, k + 1), np.full((count, 2), 0.5))
+    share = np.broadcast_to([-0.5, 0.5], (count, 2)).copy()
     share[0] = 0.5
-    parts.across(old[:, :-1], rows[4], SHED_CORE**4, (np.r_[near, k[1:] - 1], k + 1), share)
-    zero = np.zeros(len(oldest) - 1, dtype=np.int64)
-    parts.trailers(last, rows[5], core[-1:], (zero, zero), np.broadcast_to([1.0, 0.0], (len(zero), 2)))
-    return parts.wake(rows, _strip_weights(line).T.astype(np.float32))
-
-
-class _Parts:
-    def __init__(self, azimuths: int) -> None:
-        self._azimuths = azimuths
-        self._ends, self._core = list[Singles](), list[Array]()
-        self._places, self._shares = list[Integers](), list[Array]()
-
-    def trailers(self, nodes: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
-        """Lines from age to age, (azimuths, ages, radii, 3); core: by age and radius."""
-        self._add(nodes[:, :-1], nodes[:, 1:], row, core, ages, shares)
-
-    def across(self, nodes: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
-        """Lines from radius to radius."""
-        self._add(nodes[:, :, :-1], nodes[:, :, 1:], row, core, ages, shares)
-
-    def _add(self, a: Array, b: Array, row: int, core: Any, ages: Any, shares: Array) -> None:
-        old, wide = a.shape[1:3]
-        self._ends.append(np.concatenate([a, b], axis=-1, dtype=np.float32).reshape(self._azimuths, -1, 6))
-        self._core.append(np.broadcast_to(core, (old, wide)).ravel())
-        ages = (np.repeat(each, wide) for each in ages)
-        self._places.append(np.column_stack([np.tile(np.arange(row, row + int(wide)), old), *ages]))
-        self._shares.append(np.repeat(shares, wide, axis=0))
-
-    def wake(self, rows: tuple[int, ...], strips: Singles) -> WakeLines:
-        """All of them."""
-        ends, places = np.concatenate(self._ends, axis=1), np.concatenate(self._places)
-        core, shares = (np.concatenate(each).astype(np.float32) for each in (self._core, self._shares))
-        return WakeLines(ends, core, places, shares, rows, strips)
+    across(old[:count], rows[4], _SHED, (np.append(near, k[:-1]), k + 1), share)
+    trailers(old[count:], rows[5], core[-1], (0, 0), np.array([[1.0, 0.0]]))
+    ends, cores, places, shares = np.split(np.concatenate(parts), [2, 3, 6], axis=1)
+    ends, cores, places = (each.astype(np.int64) for each in (ends, cores[:, 0], places))
+    return _Lattice(ends, cores, places, shares.astype(np.float32), rows, _strip_weights(line).T.astype(np.float32))
 
 
 def _by_panels(line: LiftingLine, wake: WakeLines, rows: Singles) -> Singles:
@@ -374,7 +403,7 @@ def _seen(
     for b, (first, place) in enumerate(zip(azimuths.tolist(), places.tolist(), strict=True)):
         core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), seen == b
         core[on_it] = young[: on_it.sum()]
-        _sum_lines(targets, wake.ends[place], wake.core, core, wake.places, wake.shares, first, rows)
+        _sum_lines(targets, wake.nodes[place], wake.ends, wake.core, core, wake.places, wake.shares, first, rows)
         rows[wake.rows[2] : wake.rows[3], first, on_it] = 0.0  # A blade's own bound line has no downwash on it.
     return _by_panels(line, wake, rows) / (4.0 * math.pi)
 
@@ -418,7 +447,7 @@ def lattice_lag(line: LiftingLine, course: WakeCourse, harmonic: Array) -> NDArr
     )
     strip = np.searchsorted(groups, np.arange(line.panels), side="right") - 1
     shed = np.concatenate([young, old[:, strip]]).T  # (panels, lines): the lines of all panels are of the same ages.
-    age = -0.5 * (wake.ends[0, shed, 2] + wake.ends[0, shed, 5]).astype(np.float64)  # It sinks by 1 in an age of 1.
+    age = -wake.nodes[0, wake.ends[shed], 2].mean(axis=-1, dtype=np.float64)  # It sinks by 1 in an age of 1.
     x, core = line.r[:, None] * age, wake.core[shed].astype(np.float64)
     core = np.where(core < 0.0, own_core(line, course)[:, None], core)
     gain = -wake.shares[shed] * (x / (2.0 * math.pi * np.sqrt(np.square(x * x) + core)))[..., None]

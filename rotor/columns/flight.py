@@ -295,6 +295,21 @@ def disk_sums(point: Point) -> DiskSums:
     return DiskSums(float(q[s.measure(FZ, "one", STEADY)]), *sums)
 
 
+def induced_air(problem: Problem, point: Point) -> tuple[Array, Array, Array | float]:
+    """λ_i, (elements, azimuths), the swirl u, (elements,), and what of λ_i sections balance by themselves."""
+    terms, structure, nodes = problem.inflow_terms, point.system.structure, point.system.nodes
+    induced = part(point, UP, list(terms.names))
+    balanced: Array | float = 0.0 if terms.interface.balanced is None else point.forces[terms.interface.balanced]
+    induced += balanced
+    if nodes is not None:
+        induced += nodes.field(point.x[structure.given :]).reshape(induced.shape)
+    swirl = -point.phi[structure.first_row[UT] + structure.shapes[UT][SWIRL]]
+    if problem.air.joined is not None:
+        induced += problem.air.joined[0][:, None]
+        swirl = swirl + problem.air.joined[1]
+    return induced, swirl, balanced
+
+
 def elements_of(problem: Problem, point: Point) -> BladeElements:
     """The blade elements at a point that has the flow at the sections."""
     c, f, s, x = point.channels, point.forces, point.flow, point.x
@@ -302,15 +317,7 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
     state, disk, make = state_of(structure, x), problem.disk, point.system.make
     assert isinstance(make, _Flow)
     flow = make.flow(x)
-    induced = part(point, UP, list(terms.names))
-    balanced: Array | float = 0.0 if terms.interface.balanced is None else f[terms.interface.balanced]
-    induced += balanced
-    if (nodes := point.system.nodes) is not None:
-        induced += nodes.field(x[structure.given :]).reshape(induced.shape)
-    swirl = -point.phi[structure.first_row[UT] + structure.shapes[UT][SWIRL]]
-    if problem.air.joined is not None:
-        induced += problem.air.joined[0][:, None]
-        swirl = swirl + problem.air.joined[1]
+    induced, swirl, balanced = induced_air(problem, point)
     twist = None
     if torsion is not None:
         coordinates = parts_of(structure, x)[1].reshape(len(torsion.gain), -1)

@@ -10,7 +10,7 @@ from collections import Counter, OrderedDict
 from collections.abc import Callable, Generator, Hashable
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from functools import wraps
+from functools import lru_cache, wraps
 from threading import RLock
 from types import FunctionType, ModuleType
 from typing import Any, ParamSpec, TypeVar, cast
@@ -34,6 +34,12 @@ _MEASURED = frozenset((1, *(2 * 4**k for k in range(16))))
 _NUMBERS = frozenset((float, int, bool, complex, type(None)))
 
 
+@lru_cache(maxsize=1024)
+def _is_code(kind: type) -> bool:
+    """Whether objects of a type belong to the program. Dispatchers are known by an abstract class: slowly."""
+    return issubclass(kind, (type, FunctionType, ModuleType, Dispatcher))
+
+
 @dataclass(eq=False)
 class _Result:
     cache: "dict[Hashable, _Result]"
@@ -50,7 +56,7 @@ class _Result:
         self.rest = 0
         while left:
             one = left.pop()
-            if id(one) in seen or isinstance(one, (type, FunctionType, ModuleType, Dispatcher)):
+            if id(one) in seen or _is_code(one.__class__):
                 continue
             seen.add(id(one))
             if isinstance(one, np.ndarray):

@@ -32,7 +32,7 @@ SLOWEST = 1e-4
 FOLLOWING_PASSES = 25
 """Evaluations of the blade elements in one step of continuation: steps that converge take 6 to 20 in nearly all cases,
 and a shorter step costs less than more of them. Our choice."""
-_NEARLY = SolverOptions(residual_tolerance=1e-4, torsion_tolerance=1e-4, inflow_tolerance=1e-2)
+_NEARLY = SolverOptions(residual_tolerance=1e-4, torsion_tolerance=1e-4, inflow_tolerance=1e-2, slopes=False)
 """To which the blade as built is trimmed as a start: each twist is solved to the end from there. Our choice."""
 _FINEST_OF_REST = 0.1
 """Step of continuation over the way left below which it gives up: so small a step means that trims end. Our choice."""
@@ -67,7 +67,7 @@ def _linear_trim(design: Design) -> tuple[WakeCourse, TrimState] | None:
     """
     problem = linear_problem(replace(design, models=replace(design.models, reverse_flow=False)))
     tables = without_stall(problem.disk, None if design.models.compressibility else LOW_MACH)
-    result = trim(replace(problem, disk=replace(problem.disk, tables=tables)))
+    result = trim(replace(problem, disk=replace(problem.disk, tables=tables)), options=SolverOptions(slopes=False))
     return (along(result, problem.course), result.state) if result.converged else None
 
 

@@ -92,7 +92,7 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     watts = design.power_unit
     width = disk.dr / len(disk.psi)
     e = elements
-    induced = induced_power(problem, e)
+    induced = induced_power(problem, (e.induced, e.swirl), e.fz, e.fx)
     profile = float(width @ (_around(e.u_t, e.fx) - _around(e.u_p, e.fz) + _around(e.u_r, e.fr))) * watts
     parasite, climb = outside_power(problem)
     if design.condition.stand is not None:
@@ -105,10 +105,10 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping)
 
 
-def induced_power(problem: Problem, elements: BladeElements) -> float:
-    """Σ (λ_i dF_z + u dF_x) [W]."""
-    e, width = elements, problem.disk.dr / len(problem.disk.psi)
-    return float(width @ (_around(e.induced, e.fz) + e.swirl * e.fx.sum(axis=1))) * problem.design.power_unit
+def induced_power(problem: Problem, air: tuple[Array, Array], fz: Array, fx: Array) -> float:
+    """Σ (λ_i dF_z + u dF_x) [W]; air: λ_i and u."""
+    (induced, swirl), width = air, problem.disk.dr / len(problem.disk.psi)
+    return float(width @ (_around(induced, fz) + swirl * fx.sum(axis=1))) * problem.design.power_unit
 
 
 def outside_power(problem: Problem) -> tuple[float, float]:

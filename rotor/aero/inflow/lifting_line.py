@@ -120,12 +120,13 @@ def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]
 
     half_chord: of unsteady sections over R, (panels,), or empty.
     """
-    matrix = np.divide(influence(line, course), course.mass_flow, dtype=np.float64)
+    matrix, share, panel = influence(line, course), math.pi / line.blades, np.arange(line.panels)
+    blocks, scale = matrix.reshape(2 * (line.panels, line.azimuths)), np.float64(share / course.mass_flow)
+    own = scale * blocks[panel, :, panel]
+    np.multiply(matrix, scale, out=matrix, casting="same_kind")  # In double precision.
     if half_chord:
-        blocks = matrix.reshape(line.panels, line.azimuths, line.panels, line.azimuths)
-        panel = np.arange(line.panels)
-        blocks[panel, :, panel] += shed_correction(line, course, np.array(half_chord))
-    return (matrix * (math.pi / line.blades)).astype(np.float32)
+        blocks[panel, :, panel] = own + share * shed_correction(line, course, np.array(half_chord))
+    return matrix
 
 
 class LiftingLineTerms(InflowTerms):
