@@ -147,6 +147,11 @@
       ?.closest('[class*=Flex-root]:has(.mantine-Slider-root):has(label)');
     if (row?.closest('[data-dock-region]')) RX.send('default', row.querySelector('label').textContent);
   });
+  // Which dock the pointer is over. A style sheet that asked html for it by :has would have the whole page styled anew
+  // with everything drawn, once a hint was shown.
+  document.addEventListener('pointerover', event => {
+    page.dataset.over = closest(event, '[data-dock-region]')?.dataset.dockRegion ?? '';
+  });
   // Keys pressed in the frame's own controls are theirs alone.
   root.addEventListener('keydown', event => {
     const presses = event.key === ' ' || event.key === 'Enter';
@@ -278,7 +283,7 @@
   });
   RX.paint('notice', notice => {
     const bar = part('notice');
-    bar.hidden = !notice;
+    bar.hidden = !page.toggleAttribute('data-notice', Boolean(notice));
     if (!notice) return;
     // Its buttons stay the same ones while its words change with every design tried: a press must not meet a new one.
     write(bar, '<span data-explorer="notice"></span>'

@@ -172,7 +172,8 @@
     svg.setAttribute('viewBox', `0 0 ${layout.width} ${layout.height}`);
     svg.innerHTML = drawSections(blade, cuts, share, shape) + drawReference(blade, share, point, shape)
       + (shift > .6 ? drawArc(blade, best, point) + drawNumbers(blade, cuts, share, point) + drawScale(one) : '');
-    page.style.setProperty('--rx-shown', String(Math.min(1, 1.6 * shift)));
+    // Not on html: that would have the whole page styled anew in every frame.
+    for (const shade of [place, part('plan')]) shade.style.setProperty('--rx-shown', String(Math.min(1, 1.6 * shift)));
     words.style.cssText = `left:${box.x + .5 * box.w}px;max-width:${box.w - 20}px`;
     const keys = one.by === 'key' ? ' ↑ ↓ 0.1°, Shift 1° · ← → another station · Enter keeps it · Esc cancels'
       : finger ? ' lift the finger to keep · a second finger cancels'

@@ -174,7 +174,7 @@ def held_by_a_finger(watched: Watched, size: tuple[int, int]) -> None:
         page.wait_for_timeout(60)
         touch.send("Input.dispatchTouchEvent", {"type": "touchMove", "touchPoints": [finger]})
     page.wait_for_function(
-        "() => RX.state.hand && document.documentElement.style.getPropertyValue('--rx-shown') === '1'"
+        "() => RX.state.hand && document.querySelector('.rxf-twisting').style.getPropertyValue('--rx-shown') === '1'"
     )
     watched.until(lambda: page.evaluate(TOTAL) != power)
     page.wait_for_function("() => RX.part('twisting').textContent.includes('second finger')")

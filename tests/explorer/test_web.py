@@ -26,6 +26,13 @@ def test_a_file_is_filled_in_one_pass(monkeypatch: pytest.MonkeyPatch):
         web.fill("x.html", {"one": "1"})
 
 
+def test_no_rule_asks_the_whole_page_what_it_has():
+    """Then everything drawn has the whole page styled anew: 8 ms a frame, and half as many frames of a drag."""
+    sheets = [path.read_text(encoding="utf-8") for path in Path(web.__file__).parent.glob("*.css")]
+    assert len(sheets) > 5
+    assert [rule for sheet in sheets for rule in re.findall(r"(?:html|:root|body)[^\s,{>+~]*:has\([^{]*", sheet)] == []
+
+
 def test_data_cannot_end_its_element():
     text = '<script id="x" type="application/json">{"a":"\\u003c/script>"}</script>'
     assert web.json_block("x", {"a": "</script>"}) == text
