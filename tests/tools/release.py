@@ -95,7 +95,7 @@ def install(wheel: Path, folder: Path, *, borrow: bool, interpreter: str = sys.e
 
 def run(python: Path, *arguments: str, cwd: Path) -> str:
     """What a command of the environment prints; RuntimeError when it fails or writes to stderr."""
-    done = subprocess.run([python, *arguments], cwd=cwd, capture_output=True, text=True, timeout=300)
+    done = subprocess.run([python, *arguments], cwd=cwd, capture_output=True, text=True, timeout=900)
     if done.returncode or done.stderr:
         raise RuntimeError(f"{' '.join(arguments)} ended with {done.returncode}: {done.stderr}")
     return done.stdout
@@ -129,7 +129,7 @@ def study(python: Path, cwd: Path) -> str:
     """Run a small study; what `study show` says of it."""
     (cwd / "small.toml").write_text(STUDY, encoding="utf-8")
     command = [python, "-m", "rotor", "study", "small.toml", "--out", "small", "--workers", "1"]
-    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=300)
+    done = subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=900)
     if done.returncode:
         raise RuntimeError(f"the study ended with {done.returncode}: {done.stderr}")
     return run(python, "-m", "rotor", "study", "show", "small", cwd=cwd)
