@@ -35,7 +35,7 @@ def drawn(watched: Watched, x: float, y: float, across: float, down: float) -> f
     return (page.evaluate("() => window.__pictures") - before) / (time.monotonic() - begun)
 
 
-@pytest.mark.slow
+@pytest.mark.nightly
 def test_a_tip_drag_is_drawn_about_as_often_as_that_of_a_slider(watched: Watched):
     """On a busy machine plan and sections, which have more to draw, fall back to about .6."""
     page = watched.page
