@@ -121,7 +121,7 @@ def trim(
     Tries the warm start, then a cold start, then continuation from a lighter, slower rotor, as far as stalled sections
     carry no more than `most_stalled` of the lift's moment.
     """
-    passes = 0
+    passes, of_start = 0, False
     best: TrimResult | None = None
     for guess in chain([] if start is None else [start], first_guesses(problem)):
         if best is not None and options.asked_to_stop:
@@ -131,7 +131,9 @@ def trim(
         if result.converged and not _hangs_under_its_wake(problem, result):
             return replace(result, passes=passes)
         result = replace(result, converged=False)
-        best = result if best is None or result.residual < best.residual else best
+        # What a refusal says depends on the design alone: an attempt from the warm start counts if it is the only one.
+        best = result if best is None or of_start or result.residual < best.residual else best
+        of_start = guess is start
     assert best is not None
     if options.asked_to_stop:
         return replace(best, passes=passes, reached=0.0)
