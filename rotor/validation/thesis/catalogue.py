@@ -137,7 +137,7 @@ def _grid(known: dict[str, Report]) -> TrustSet:
             1e-4,
             test="test_the_grid_of_linear_inflow",
             against="240 azimuths",
-            note=f"What −16° of twist adds: by {', '.join(f'{error:+.2f}' for error in added)} kW.",
+            note=f"What −16° of twist adds to it errs by {', '.join(f'{error:+.2f}' for error in added)} kW.",
         ),
         words.row(
             f"Power of the default model, 24 panels × 24 azimuths, {speeds}",
