@@ -82,7 +82,8 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     page = watched.page
     camera: Any = page.evaluate("() => window.__viserMutable.camera.position.toArray()")
     x, y = watched.grab_tip()
-    page.wait_for_function("() => document.documentElement.hasAttribute('data-twisting')")
+    # Before it begins to come to the hand, the blade rests as well.
+    page.wait_for_function("() => RX.part('twisting').style.getPropertyValue('--rx-shown') === '1'")
     edge = watched.at_rest(lambda: page.evaluate(EDGE))
     for step in range(1, 11):
         page.mouse.move(x, y + 12 + 4 * step)
