@@ -2,7 +2,7 @@
 What twist for this mission?
 ============================
 
-A mission is a list of flight conditions with hours. The twist that needs least fuel has the least mean power over
+A mission is a list of flight conditions with hours. The twist of least fuel has the least mean power over
 these hours. It need not be the best twist of any single condition.
 """
 
@@ -22,7 +22,7 @@ mission = rotor.optimise(design, "linear", conditions=list(hours.items()), start
 print(mission)
 
 # %%
-# For comparison, the best linear twist of each condition alone.
+# Compare the best linear twist of each condition alone.
 
 alone = {mu: rotor.optimise(design.at(mu=mu), "linear", starts=2) for mu in hours}
 for mu, best in alone.items():
@@ -34,7 +34,7 @@ lost = sum(
 print(f"a blade that had the best twist in every condition would save another {lost / 1e3:.1f} kW")
 
 # %%
-# The optimum is flat: the range of twist within 0.1 % of the least power.
+# The optimum is flat. Print the range of twist within 0.1 % of the least power.
 
 (band,) = mission.band
 print(f"{np.degrees(band.low):.1f}° to {np.degrees(band.high):.1f}° cost less than 0.1 % more")

@@ -2,9 +2,9 @@
 How much of the hover gap is drag?
 ==================================
 
-Computed hover power is below the few measured points that are public. Either profile power is missing, because real
-sections have more drag than smooth ones, or induced power. They grow differently with thrust, so the points can
-separate drag at low thrust from the rest. They cannot separate induced power from drag that grows with lift.
+Computed hover power is below most of the few public measured points. Either profile power is missing, because real
+sections have more drag than smooth ones, or induced power is missing. The two grow differently with thrust, so the
+points can separate drag at low thrust from the rest. They cannot separate induced power from drag that grows with lift.
 """
 
 import matplotlib.pyplot as plt
@@ -19,7 +19,7 @@ measured = public_data()["hover"]
 print(measured["kind"])
 
 # %%
-# Trim at each measured thrust, by adjusting the mass until the thrust coefficient agrees.
+# Trim at each measured thrust: adjust the mass until the thrust coefficient agrees.
 
 design = rotor.make_design(hover=True)
 sigma = measured["solidity"]
@@ -43,7 +43,7 @@ profile = np.array([one.power.profile for one in solutions]) / unit
 gap = power - np.array([one.cp for one in solutions])
 
 # %%
-# If the gap were drag alone, profile power would need the same factor at every thrust; if it were induced power alone,
+# If the gap were drag alone, profile power would need the same factor at every thrust. If it were induced power alone,
 # induced power would.
 
 print("  CT/σ    gap [%]   profile ×   induced ×")
@@ -51,7 +51,7 @@ for ct, lack, whole, drag, wake in zip(thrust, gap, power, profile, induced, str
     print(f"{ct / sigma:6.3f} {100 * lack / whole:9.1f} {1 + lack / drag:11.3f} {1 + lack / wake:11.3f}")
 
 # %%
-# Fit both at once: gap = a · profile + b · induced, with a and b not negative. Leaving out each point in turn shows how
+# Fit both at once: gap = a · profile + b · induced, with a and b not negative. Leave out each point in turn to see how
 # far the answer depends on it.
 
 parts = np.stack((profile, induced), axis=1)
@@ -67,12 +67,12 @@ left = np.abs(gap - parts @ (a, b)) / power
 print(f"drag is {100 * drag:.0f} % of the gap as fitted, which leaves up to {100 * left.max():.1f} % of the power")
 
 # %%
-# Ten digitised points of unclear origin only indicate where to look. Contracting wakes, free or prescribed, hardly give
+# Ten digitised points of unclear origin only show where to look. Contracting wakes, free or prescribed, hardly give
 # more induced power than annuli, so contraction does not explain the gap.
 
 plt.plot(thrust / sigma, 100 * gap / power, "o", label="measured − computed")
 plt.plot(thrust / sigma, 100 * a * profile / power, label="drag")
-plt.plot(thrust / sigma, 100 * (a * profile + b * induced) / power, label="drag and what grows as induced power")
+plt.plot(thrust / sigma, 100 * (a * profile + b * induced) / power, label="drag and induced power")
 plt.xlabel("Blade loading CT/σ")
 plt.ylabel("Part of the measured power [%]")
 plt.legend()

@@ -2,8 +2,8 @@
 What does the blade's own elasticity do to the optimum?
 =======================================================
 
-In flight a blade twists under aerodynamic, inertial and centrifugal moments. The flown twist is the built-in twist
-plus this elastic twist. So the best built-in twist changes.
+In flight a blade twists under aerodynamic, inertial and centrifugal moments. Its twist in flight is the built-in twist
+plus this elastic twist, so the best built-in twist changes.
 """
 
 from dataclasses import replace
@@ -18,7 +18,7 @@ elastic = rotor.make_design(twist="linear:-12", mu=0.3)
 rigid = replace(elastic, models=replace(elastic.models, elastic_twist=False))
 
 # %%
-# The same built-in twist, rigid and elastic.
+# Solve the same built-in twist with a rigid and an elastic blade.
 
 solutions = {"rigid": rotor.solve(rigid).require(), "elastic": rotor.solve(elastic).require()}
 for name, one in solutions.items():
@@ -28,12 +28,12 @@ tip = np.degrees(twist[-1])
 print(f"elastic twist at the tip: mean {tip.mean():.2f}°, from {tip.min():.2f}° to {tip.max():.2f}° in one revolution")
 
 # %%
-# Elastic twist over the azimuth: the advancing blade twists up or down by its own moments.
+# Elastic twist over the disk varies with azimuth, as the moments on the blade do.
 
 rotor.plot_field(solutions["elastic"], "elastic_twist")
 
 # %%
-# Power over built-in twist, with the best twist of each blade.
+# Plot power over built-in twist; find the best of each blade.
 
 rates = np.arange(-20.0, -3.9, 2.0)
 best = {}
@@ -49,12 +49,12 @@ plt.ylabel("Total power [kW]")
 plt.legend()
 
 # %%
-# The cost of neglecting elasticity: solve the elastic blade with the optimum of the rigid one.
+# For the cost of neglecting elasticity, solve the elastic blade with the optimum of the rigid one.
 
 flown = {name: elastic.with_twist(f"linear:{rate:.3f}") for name, rate in best.items()}
 powers = {name: rotor.solve(design).require().power.total for name, design in flown.items()}
 lost = powers["rigid"] - powers["elastic"]
-print(f"the optimum moves by {best['elastic'] - best['rigid']:+.1f}°; leaving that out costs {lost / 1e3:.2f} kW")
+print(f"the optimum moves by {best['elastic'] - best['rigid']:+.1f}°; neglecting this costs {lost / 1e3:.2f} kW")
 
 # %%
 explorer.show(flown["elastic"], browser=False)

@@ -2,7 +2,7 @@
 Would 2/rev pay?
 ================
 
-An actuator can twist the blade twice per revolution. In fast flight that can move load away from where it is expensive.
+An actuator can twist the blade twice per revolution. In fast flight this can move load away from where it is expensive.
 How much does it save, and what remains after carrying the actuator's mass?
 """
 
@@ -26,8 +26,8 @@ design = rotor.make_design(mu=0.35)
 phases = range(0, 360, 30)
 
 # %%
-# A macro fibre composite outside the skins of the blade as built, and in the skin of a new blade with half its
-# stiffness. Each is driven with half of its voltage range at twelve phases. Power is compared with that of the same
+# Put a macro fibre composite outside the skins of the existing blade, and in the skin of a new blade of half its
+# stiffness. Drive each with half of its voltage range at twelve phases. Compare power with that of the same
 # blade with the actuator at rest, and finally with that of the blade without an actuator.
 
 hosts = {"retrofit": HostBlade(), "new blade, half the stiffness": HostBlade("new", 0.5)}
@@ -45,7 +45,7 @@ for title, host in hosts.items():
     print(f"  with its {installed.masses.aircraft:.0f} kg and its stiffness, without its drive: {net:+.1f} kW")
 
 # %%
-# The phase decides: the same amplitude can cost or save power.
+# Phase decides whether the same amplitude costs or saves power.
 
 for title, powers in changes.items():
     plt.plot(phases, powers, "o-", label=title)
@@ -55,8 +55,7 @@ plt.ylabel("Change of power at full amplitude [kW]")
 plt.legend()
 
 # %%
-# Power is half of the question. 2/rev is also used against vibration and stall, which this model of steady power cannot
-# judge.
+# Power is half of the question: 2/rev also serves against vibration and stall. Check the stalled area.
 
 chosen = best["retrofit"]
 before, after = (100 * rotor.solve(one).stalled_area for one in (design, chosen))

@@ -35,7 +35,7 @@ for remark in mine.remarks:
     print("-", remark)
 
 # %%
-# Power over speed, by parts.
+# Plot power over speed, by parts.
 
 design = rotor.make_design(rotor=mine, mu=0.25)
 table = rotor.sweep(design, [0.08, 0.12, 0.16, 0.2, 0.24, 0.28, 0.32])
@@ -45,13 +45,13 @@ for mu, total in zip(columns["mu"], columns["power_total_w"], strict=True):
     print(f"µ {mu:.2f}: " + ("no trim" if total is None else f"{total / 1e3:.1f} kW"))
 
 # %%
-# The best two-segment twist at µ = 0.25, and its saving.
+# Find the best two-segment twist at µ = 0.25, and its saving.
 
 best = rotor.optimise(design, "two-segment", starts=2)
 print(best)
 
 # %%
-# The angle of attack over the disk, with that twist.
+# Plot the angle of attack over the disk with this twist.
 
 solution = rotor.solve(best.design).require()
 rotor.plot_field(solution, "alpha")

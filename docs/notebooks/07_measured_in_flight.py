@@ -2,8 +2,8 @@
 What did the blade itself measure?
 ==================================
 
-Power is one number; pressure taps and cameras measure every azimuth. Does the program follow them? The data are from a
-model rotor in a wind tunnel with and without 3/rev root pitch (HART II), and from a helicopter in flight (SA349/2
+Power is one number; pressure taps and cameras measure every azimuth. Does the program follow them? The data come from
+a model rotor in a wind tunnel, with and without 3/rev root pitch (HART II), and from a helicopter in flight (SA349/2
 Gazelle). Nothing is fitted.
 """
 
@@ -19,7 +19,7 @@ solutions = {case.name: rotor.solve(case.design()) for case in CASES}
 
 
 def show(axes, name, quantity, r, mean=True):
-    """Measured points and the computed line, with or without their means; the correlation of their harmonics."""
+    """Plot measured points and the computed line, with or without means; return their agreement."""
     measured = curves[name, quantity, r]
     psi, computed = computed_curve(measured, solutions[name])
     theirs = measured.values if mean else measured.values - measured.values.mean()
@@ -31,8 +31,8 @@ def show(axes, name, quantity, r, mean=True):
 
 
 # %%
-# HART II: normal force over the azimuth, without (BL) and with (MN) 0.8° of 3/rev pitch. The effect of the 3/rev agrees
-# well. The baseline is harder: there the blades meet the vortices of a wake that stays near the disk.
+# HART II: plot normal force over the azimuth, without (BL) and with (MN) 0.8° of 3/rev pitch. The effect of 3/rev
+# agrees well. The baseline is harder: its blades meet the vortices of a wake that stays near the disk.
 
 figure, axes = plt.subplots(1, 2, figsize=(10.0, 3.5), sharey=True, layout="constrained")
 for ax, name in zip(axes, ("BL", "MN"), strict=True):
@@ -41,7 +41,7 @@ for ax, name in zip(axes, ("BL", "MN"), strict=True):
 axes[0].set_ylabel("$C_n M^2$ without its mean")
 
 # %%
-# The tip twists by degrees under these loads: the actuator moves the root by 0.8°, and the tip moves more.
+# These loads twist the tip elastically. With 0.8° of 3/rev at the root, it exceeds 0.8° at the tip.
 
 figure, axes = plt.subplots(1, 2, figsize=(10.0, 3.5), sharey=True, layout="constrained")
 for ax, name in zip(axes, ("BL", "MN"), strict=True):
@@ -53,8 +53,8 @@ for ax, name in zip(axes, ("BL", "MN"), strict=True):
 axes[0].set_ylabel("Elastic twist of the tip [°]")
 
 # %%
-# The Gazelle at µ 0.36: section lift coefficient at three radii. It is large where the blade is slow. Lift itself,
-# which includes the dynamic pressure, correlates less.
+# The Gazelle at µ 0.36: plot the section lift coefficient at three radii. It is large where the blade is slow. Lift
+# itself, which includes the dynamic pressure, correlates less.
 
 figure, axes = plt.subplots(1, 3, figsize=(12.0, 3.5), sharey=True, layout="constrained")
 for ax, r in zip(axes, (0.75, 0.88, 0.97), strict=True):
@@ -65,6 +65,6 @@ for ax, r in zip(axes, (0.75, 0.88, 0.97), strict=True):
 axes[0].set_ylabel("$c_l$")
 
 # %%
-# *How far to trust the numbers* has harmonics, power, controls and the causes that were tried.
+# For harmonics, power, controls and causes that were tried, see *How far to trust the numbers*.
 
 explorer.show(solutions["FC2"].design, browser=False)

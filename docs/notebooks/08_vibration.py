@@ -2,11 +2,11 @@
 What twist does to vibration
 ============================
 
-Twist is chosen for power, but it also changes vibration: the loads of the four blades add up at the hub to forces and
-moments at four per revolution. This notebook shows what static and active twist do to both.
+Twist is chosen for power, but it also changes vibration: the loads of four blades add up at the hub to forces and
+moments at 4/rev. This notebook shows what static and active twist do to both.
 
 The index weighs the amplitudes of the forces aft, to the side and up by 0.5, 0.67 and 1, adds the moments over the
-radius, and is given in per cent of the weight. Use it to compare designs of one rotor. Do not trust its level: another
+radius, and is given in per cent of the weight. Compare designs of one rotor with it. Do not trust its level: another
 wake model changes it by half or more.
 """
 
@@ -17,12 +17,12 @@ import matplotlib.pyplot as plt
 import rotor
 
 # %%
-# Static twist at three speeds. Strong twist saves power in hover and costs power at speed.
+# Plot the index over static twist at three speeds. Strong twist saves power in hover and costs power at speed.
 #
-# The shaded band covers the same design with other inflow models, from uniform inflow to the lifting line; every index
-# has one. From µ 0.3 on all models agree that more twist means more vibration, though not by how much. The exception
-# is the lifting line at µ 0.3, with its minimum near −4°. At µ 0.2 its minimum is near −12°, like that of power, and
-# linear inflow has none. At lower speed the wake model decides, and no index is given.
+# The shaded band covers the same design with other inflow models, from uniform inflow to the lifting line. From µ 0.3
+# on, the models agree that more twist means more vibration, though not by how much. The exception is the lifting line
+# at µ 0.3, with its minimum near −4°. At µ 0.2 its minimum is near −12°, like that of power; linear inflow has none. At
+# lower speed the wake model decides, and no index is given.
 
 rates = [0, -4, -8, -12, -16, -20]
 for mu in (0.2, 0.3, 0.35):
@@ -36,7 +36,7 @@ plt.ylabel("Index [% of the weight]")
 plt.legend()
 
 # %%
-# Hub loads of the blade as built.
+# Print the hub loads of the blade as built.
 
 design = rotor.make_design(mu=0.3, bending=True)
 loads = rotor.hub_loads(rotor.solve(design))
@@ -45,7 +45,7 @@ for name, size in loads.amplitudes.items():
     print(f"  {name} {size:.0f} {'N' if name[0] == 'f' else 'N m'}")
 
 # %%
-# Now the blade twists by a degree at 2, 3, 4 or 5 per revolution. The response is nearly linear, so one matrix gives
+# Now twist the blade by one degree at 2, 3, 4 or 5 per revolution. The response is nearly linear, so one matrix gives
 # every amplitude and phase.
 
 matrix = rotor.t_matrix(design)
@@ -69,9 +69,9 @@ for ax in (power, index):
 index.legend()
 
 # %%
-# The phase that saves power is not the phase that reduces vibration. This is their trade-off curve with 2/rev and 3/rev
-# together, at most a degree each. Every point is trimmed again, and none has both less power and less vibration than
-# another. The last columns are the change of the index with other wakes; where they disagree, do not trust it.
+# The phase that saves power is not the phase that reduces vibration. Compute the trade-off curve with 2/rev and 3/rev
+# together, at most one degree each. Every point is trimmed again; none has both less power and less vibration than
+# another. Brackets give the change of the index with other wakes: where signs differ, do not trust it.
 
 front = rotor.vibration_front(design)
 for point, (more, less) in zip(front.points, front.changes, strict=True):
@@ -85,7 +85,7 @@ print("largest error of the matrix: power {:.2f} %, index {:.1f} %".format(*fron
 
 # %%
 # A static twist of two segments has a trade-off curve too. At this speed the blade as built is worse in both: its
-# strong twist is for hover.
+# strong twist suits hover.
 
 fixed = rotor.vibration_front(design, "two-segment", points=4)
 figure, ax = plt.subplots()
