@@ -6,7 +6,7 @@ Twist is chosen for power, but it also changes vibration: the loads of four blad
 moments at 4/rev. This notebook shows what static and active twist do to both.
 
 The index weighs the amplitudes of the forces aft, to the side and up by 0.5, 0.67 and 1, adds the moments over the
-radius, and is given in per cent of the weight. Compare designs of one rotor with it. Do not trust its level: another
+radius, and is given in per cent of the weight. Use it to compare designs of one rotor. Do not trust its level: another
 wake model changes it by half or more.
 """
 
