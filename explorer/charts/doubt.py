@@ -73,7 +73,7 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
         rows.append(tag("tr", cells))
     title = f"Best linear twist for this flight: {number(rate, 1)} °/R"
     if best.cost is not None:
-        title += f"; with other inputs or inflow the best then would need about {units.watts(best.cost, 1)} less"
+        title += f"; with other inputs or inflow the best twist would then need about {units.watts(best.cost, 1)} less"
     return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
 
 

@@ -17,7 +17,7 @@ def histogram(powers: Sequence[float], ends: tuple[float, float], units: Units) 
     steps = np.repeat([unit.of(float(edge) - least) for edge in edges], 2)
     heights = np.concatenate([[0.0], np.repeat(counts, 2), [0.0]])
     return Chart(
-        "Best of each player",
+        "Each player's best",
         Axis(f"{unit.symbol} above the least", (0.0, float(steps[-1]))),
         Axis("players", (0.0, max(float(counts.max()), 4.0))),
         (Line("", steps, heights, filled=True),),

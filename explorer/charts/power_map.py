@@ -107,7 +107,7 @@ def least_words(drawn: PowerMap, units: Units) -> str:
     best = ", ".join(at(*one) for one in zip(every, drawn.lowest[1], strict=True))
     least = zip(drawn.parameters, drawn.least[:2], strict=True)
     ends = [at(p, p.low + part * (p.high - p.low)) for p, part in least if min(part, 1.0 - part) < 1e-6]
-    beyond = f" It lies at the bound of {' and '.join(ends)}: less may lie beyond." if ends else ""
+    beyond = f" It lies at the bound of {' and '.join(ends)}: lower power may lie beyond it." if ends else ""
     return f"Least {total_words(drawn.least[2], units)} at {best}.{beyond}"
 
 

@@ -196,7 +196,7 @@ def with_band(chart: Chart, bands: Bands, units: Units) -> Chart:
     if not known.any():
         return chart
     x, y, half = x[known], y[known], half[known]
-    note = f"{chart.note} Shaded: how uncertain it is.".strip()
+    note = f"{chart.note} Shaded: its uncertainty.".strip()
     series = (replace(one, filled=False) if one is line else one for one in chart.series)
     return replace(chart, series=(Band("", x, y - half, y + half, SAVING), *series), note=note)
 

@@ -176,7 +176,7 @@ class Fitted:
 def fitted(solution: Solution) -> Fitted:
     """The polynomials about a trimmed design; ValueError with one sentence where there are none."""
     if not solution.converged:
-        raise ValueError(f"The design is not trimmed, so no page can be made of it: {solution.message}")
+        raise ValueError(f"The design is not trimmed, so no page can be made from it: {solution.message}")
     design = solution.design
     if design.models.trim == "free-rotor":
         raise ValueError("A free rotor takes no power, so no twist lowers it: choose another trim.")
@@ -184,8 +184,8 @@ def fitted(solution: Solution) -> Fitted:
     count, error = len(of(design, 1.0).handles), math.inf
     if not 0 < count <= MOST_HANDLES:
         raise ValueError(
-            f"The twist has {count or 'no'} sliders, and a page takes along 1 to {MOST_HANDLES}: choose another law, "
-            "for example linear or two segments."
+            f"The twist has {count or 'no'} sliders, and a travelling page has 1 to {MOST_HANDLES}: choose another "
+            "law, for example linear or two segments."
         )
     for share in _SHARES[max(0, count - 3) :]:
         made = _made(of(design, share), solution)
@@ -196,7 +196,7 @@ def fitted(solution: Solution) -> Fitted:
             return made
     off = f"near its twist the power would be {error / 1e3:.1f} kW off"
     why = "with twists near its own it does not trim" if math.isinf(error) else off
-    raise ValueError(f"No page can be made of this design: {why}. Choose a design farther from its limits.")
+    raise ValueError(f"No page can be made from this design: {why}. Choose a design farther from its limits.")
 
 
 def _of_law(design: Design, share: float) -> Family:

@@ -168,15 +168,15 @@ def _accuracy(made: Fitted, angle: _Drawn, units: Units) -> Markup:
     unit, errors = units.power[0], (made.error, float(made.errors.max()), float(made.errors.mean()))
     stated, worst, mean = (number(math.ceil(100.0 * unit.of(error)) / 100.0, 2) for error in errors)
     return group(
-        f"This file computes by polynomials that {PROGRAM} fitted to {len(made.trims)} trims and their exact "
+        f"This file computes with polynomials that {PROGRAM} fitted to {len(made.trims)} trims and their exact "
         "gradients. Its power is within ",
         tag("b", f"{stated} {unit.symbol}", data_live="error"),
-        f" of a trim: at {len(made.tested)} other twists within the sliders, their corners included, it was off by "
+        f" of a trim: at {len(made.tested)} other twists within the sliders, corners included, it was off by "
         f"{worst} {unit.symbol} at most and {mean} {unit.symbol} on average, the angle of attack by "
         f"{number(angle.error(made), 2)}° (root mean square). The sliders end before this exceeds "
         f"{100.0 * TOLERANCE:g} % of power. ± is the uncertainty of the model; that of a change holds the mean square "
         "of this error, too.",
-        " What the drive takes is not in it." if made.solution.design.rotor.blade.carried is not None else "",
+        " The power of the drive is not included." if made.solution.design.rotor.blade.carried is not None else "",
     )
 
 

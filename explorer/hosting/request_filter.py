@@ -93,7 +93,7 @@ def host_name(text: str) -> str:
     """The host name in `text`; ValueError with one sentence where there is none."""
     name, _ = _split(text)
     if not name:
-        raise ValueError(f"{text!r} is not a host name: give it as in rotor.example, without https:// and path")
+        raise ValueError(f"{text!r} is not a host name: give a name such as rotor.example, without https:// and path")
     return name
 
 

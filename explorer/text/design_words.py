@@ -95,7 +95,7 @@ def _law_name(law: TwistLaw, rotor: Rotor) -> str:
         case TableTwist(name=name) if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS):
             return f"twist of the {shipped_aircraft(name).name}"
         case _:
-            return f"{law.noun if isinstance(law, SpecTwist) else 'of another law'}, {angle}"
+            return f"{law.noun if isinstance(law, SpecTwist) else 'custom twist'}, {angle}"
 
 
 def flight_words(design: Design, units: Units = SI) -> str:

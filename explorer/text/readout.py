@@ -353,7 +353,7 @@ def needs(verdict: Verdict, units: Units) -> str:
     net, actuator = verdict.net_saving, verdict.installed.actuator
     words = needs_words(net, verdict.net_band, units, verdict.sourced)
     if actuator.forbidden:
-        return f"is {actuator.forbidden}; could it work, it {words}"
+        return f"is {actuator.forbidden}; if it could work, it {words}"
     return words + (", but cannot be built" if net > 0.0 and not verdict.buildable else "")
 
 

@@ -117,7 +117,7 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     if ranges and optimum.doubt_cost is not None:
         moved = "; ".join(_range(parameter, ranges[parameter.name]) for parameter in concept.parameters)
         notes.append(f"With other inputs or inflow: {moved}.")
-        notes.append(f"The best twist then would need about {units.watts(optimum.doubt_cost, 1)} less than this one.")
+        notes.append(f"The best twist would then need about {units.watts(optimum.doubt_cost, 1)} less than this one.")
     if best.active:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     if best.index is not None:

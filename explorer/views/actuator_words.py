@@ -80,7 +80,7 @@ def limits_panel(verdict: Verdict | None) -> Markup:
     good = tag("div", tag("span.rx-good", "✓"), tag("span.rx-dim", f"met: {kept}")) if kept else None
     reach = verdict.installed.actuator.range_limits
     own, asked = ([limit for limit in verdict.broken if (limit.name in reach) == short] for short in (False, True))
-    more = tag("div.rx-care", tag("span", "▲"), tag("span", "The best twist would take more than it has:"))
+    more = tag("div.rx-care", tag("span", "▲"), tag("span", "The best twist needs more than it has:"))
     cares = [tag("div.rx-care", tag("span", "▲"), tag("span", caveat)) for caveat in verdict.caveats]
     beyond = (more, *map(_limit, asked)) if asked else ()
     return tag("div.rx.rxa-limits", map(_limit, own), beyond, good, cares, data_explorer="limits")

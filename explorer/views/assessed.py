@@ -57,7 +57,7 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     forbidden = one.installed.actuator.forbidden
     moves += f" It is {forbidden}." if forbidden else ""
     if flight is not None:
-        could = "Could it work, by" if forbidden else "By"
+        could = "If it could work, by" if forbidden else "By"
         moves += f" {could} schedule it {_gives(one, units)} over the mission."
     mass = None if verdict is None else verdict.mass_allowed
     if flight is None or mass is None:
@@ -98,7 +98,7 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
     *parts, (_, total) = mass_parts(one.installed).items()
     (sentence, pays), (over, asked) = _sentences(one, units), _over(one)
     forbidden, gives = one.installed.actuator.forbidden, _gives(one, units)
-    could = f"could it work: {gives}, " if forbidden else ""
+    could = f"if it could work: {gives}, " if forbidden else ""
     part = AssessedPart(
         tip=_angle(one.inputs.tip(one.installed)),
         reach=_reach(one),

@@ -47,7 +47,7 @@ def score(best: Solution, to_beat: Solution, units: Units) -> str:
 def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:
     """One's own power against the least by the same sliders, with the band of the difference where it is known."""
     unit, change = units.power[0], own.power.total - other.power.total
-    power, way = f"Least by these sliders {total_words(other.power.total, units)}", "more" if change > 0.0 else "less"
+    power, way = f"Least with these sliders {total_words(other.power.total, units)}", "more" if change > 0.0 else "less"
     if abs(change) < _EQUAL:
         return f"{power}, yours the same"
     if band is None:
@@ -59,7 +59,7 @@ def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units)
 def prompt(now: PageState) -> dict[str, SceneLabel | None]:
     """What to do first, until something was done."""
     tip = [0.97 * now.inputs.aircraft.rotor_for(now.inputs.preset).radius, 0.0, 0.0]
-    return {"prompt": None if any(now.steps) else SceneLabel("Pull the blade tip up or down", "/rotor/blade_0", tip)}
+    return {"prompt": None if any(now.steps) else SceneLabel("Drag the blade tip up or down", "/rotor/blade_0", tip)}
 
 
 NOTICE = Panel(notice, works=game_doubt)

@@ -179,6 +179,6 @@ def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units
         Axis("range of tip twist in flight [°]", (0.0, x_most)),
         Axis("mass of all blades [kg]", y_range, log=True),
         tuple(series),
-        note="Line, and grey its band: the actuator as set, with another range and mass but its own stiffness and "
+        note="Line and grey band: the actuator as set, with another range and mass but the same stiffness and "
         "drive. Points: real actuators on this blade.",
     )

@@ -22,7 +22,7 @@
         title="Power and trim in detail">
         <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div>
       <button class="rxf-held" data-do="drawer" data-value="trust" data-explorer="held"
-        title="Of rotors that had no part in the size of ±. How far to trust it" ${power.held ? '' : 'hidden'}>
+        title="Rotors that did not set the size of ±. Click to see how far to trust it" ${power.held ? '' : 'hidden'}>
         ${text(power.held)}</button></div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
@@ -60,7 +60,7 @@
       <span data-over>${listed('Over its limits', one.over)}</span>
       ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
         feasible: ${text(one.feasible)}</button>`}
-      <span class="rxf-dim">${listed('The best twist would take', one.asked)}</span></p>` : '';
+      <span class="rxf-dim">${listed('The best twist needs', one.asked)}</span></p>` : '';
     write(card, `<header data-explorer="assessed"><div role="group" aria-label="Compared with">
         <span class="rxf-dim">vs.</span>${blades}</div></header>
       ${limits}<div class="rxf-columns">
@@ -71,7 +71,7 @@
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
         ${column('by schedule, over the mission', `<b class="rxf-num">${text(one.flight || '…')}</b>`,
-          text(one.flights), 'Whatever is set here. ± is one standard deviation.')}
+          text(one.flights), 'The same for every setting here. ± is one standard deviation.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${text(one.sentence)} </span>${text(one.problem)} ${pays}</p>`);
   });

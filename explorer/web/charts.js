@@ -15,7 +15,7 @@
     element.toggleAttribute('data-faded', faded);
     element.dataset.name = name;
     const scale = y.whole && `<button data-page="scale" aria-pressed="${whole.has(name)}"
-      title="All of the axis, or the part about the least. A double click does the same">
+      title="The whole axis, or the part around the least. A double click does the same">
       whole${tight ? '' : ' range'}</button>`;
     Charts.fill(element, tight ? {...chart, ...short} : chart, {width, height, scale});
     const {X, Y} = element.drawn.place, power = speeds && chart.series.at(-1).y[0];

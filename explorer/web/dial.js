@@ -159,7 +159,7 @@
       const band = `${signed(low)} to ${signed(high)} % over inflow models`;
       const where = `${Math.hypot(...point).toFixed(1)}° at ${direction(...point)}°`;
       return `<g data-agreed="${agreed}"><title>${agreed ? `Predicted ${name} on this dial: ${where}, ${band}`
-        : `No clear best phase: at ${name} of this model, the models disagree: ${band}`}</title>
+        : `No clear best phase at ${name} of this model: the models disagree: ${band}`}</title>
         <circle cx="${x.toFixed(1)}" cy="${y.toFixed(1)}" r="8.5" fill="var(--rx-solid)" stroke="var(--rx-ink)"
           stroke-width="1.3" ${agreed ? '' : 'stroke-dasharray="2 2" opacity=".75"'}/>
         <text x="${x.toFixed(1)}" y="${(y + 4.3).toFixed(1)}" text-anchor="middle"

@@ -66,8 +66,8 @@
   });
 
   const STATES = {
-    set: 'The voltage is that on the sliders', schedule: 'The voltage follows the flight, for least power',
-    stopped: 'The actuator fails: its twist freezes as the flight goes on',
+    set: 'The sliders set the voltage', schedule: 'The voltage follows the flight, for least power',
+    stopped: 'The actuator fails: its twist freezes while the flight continues',
   };
   let scale = null;
   RX.paint('flight', flight => {

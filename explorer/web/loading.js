@@ -108,7 +108,7 @@
   function say(gone) {
     const before = document.getElementById('rx-gone');
     if (!gone) before?.remove();
-    else if (!before) warn('rx-gone', 'Connection lost; retrying. You cannot change anything meanwhile. '
+    else if (!before) warn('rx-gone', 'Connection lost; retrying. You cannot change anything until it returns. '
       + 'The address of this page holds your design.');
   }
 

@@ -91,7 +91,7 @@ VIEWS: tuple[tuple[View, str], ...] = (("disk", "Disk"), ("blade", "Blade"), ("s
 _MISSING: dict[Drawn, str] = {
     "drawn": "",
     "none": "No 3D: this browser has no WebGL. Switch on hardware acceleration, or use another browser.",
-    "lost": "The browser has lost the 3D view. It returns by itself, or when you load the page again.",
+    "lost": "The browser has lost the 3D view. It returns on its own, or when you reload the page.",
 }
 _COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": "blade", "view_side": "side"}
 

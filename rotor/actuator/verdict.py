@@ -325,7 +325,7 @@ def verdict_sentence(verdict: Verdict) -> str:
     gains, costs = (sum(max(sign * part, 0.0) for part in parts) for sign in (1.0, -1.0))
     forbidden = verdict.installed.actuator.forbidden
     text = f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
-    text = f"{forbidden.capitalize()}; could it work, it s{text[1:]}" if forbidden else text
+    text = f"{forbidden.capitalize()}; if it could work, it s{text[1:]}" if forbidden else text
     sure = net_band_words(verdict) and f" ({net_band_words(verdict)})"
     if verdict.net_saving < MIN_SHOWN_W:
         return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{sure}."

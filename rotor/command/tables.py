@@ -47,7 +47,7 @@ def run_sweep(args: argparse.Namespace) -> int:
             design.at(**cast(Any, {name: step}))
     base = common.design_from(args, args.relative_to).twist.spec() if args.relative_to else ""
     if base and base not in (known := [design.twist.spec() for design in designs]):
-        raise ValueError(f"--relative-to {base} is no twist of this sweep: use {', '.join(dict.fromkeys(known))}")
+        raise ValueError(f"--relative-to {base} is not a twist of this sweep: use {', '.join(dict.fromkeys(known))}")
     common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
     solutions = SweepTable(tuple(solution for each in tables for solution in each), args.over)

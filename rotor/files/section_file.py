@@ -185,7 +185,7 @@ def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[
             says = f"two polars of {name} have Mach {one.mach:g}"
             if one.reynolds and other.reynolds:
                 raise Refusal(f"{says} and Reynolds number {one.reynolds:,.0f}: keep one of them", *at)
-            raise Refusal(f"{says} and no Reynolds numbers to tell them apart: keep one, or add a column reynolds", *at)
+            raise Refusal(f"{says} without Reynolds numbers: keep one, or add a column reynolds", *at)
     for polar in polars:
         _check_range(name, polar, at)
     machs = list(dict.fromkeys(polar.mach for polar in polars))

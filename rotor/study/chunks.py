@@ -241,7 +241,7 @@ class StudyFolder:
         metadata = arrow_modules()[1].read_metadata(str(path))
         about = {key.decode(): value.decode() for key, value in metadata.metadata.items()}
         if about["study"] != self.study.fingerprint:
-            raise StudyFolderError("is of another study")
+            raise StudyFolderError("belongs to another study")
         if (by := _computed_by(about)) != (here := _computed_by(describe(self.study, self.provenance))):
             raise StudyFolderError(f"was computed by {by}, this is {here}")
         return int(about["chunk"])

@@ -99,7 +99,7 @@ def read_results(folder: str | Path) -> Results:
                 f"{path.name} of {str(folder)!r} is damaged ({shorten(str(error))}): run the study again for its points"
             ) from None
         if tables[-1].schema != tables[0].schema:
-            raise ValueError(f"{path.name} of {str(folder)!r} is of another study: move it elsewhere")
+            raise ValueError(f"{path.name} of {str(folder)!r} belongs to another study: move it elsewhere")
     return Results(about, tuple(map(str, about["axes"])), columns_from(arrow.concat_tables(tables)))
 
 
@@ -128,7 +128,7 @@ def read_file(path: str | Path) -> Results:
     except MemoryError:  # pyarrow's ArrowMemoryError is one, too.
         raise
     except (OSError, KeyError, ValueError, arrow.ArrowException):
-        raise ValueError(f"{Path(path).name!r} is no result of a study: give a chunk-….parquet of its folder") from None
+        raise ValueError(f"{Path(path).name!r} is not a study result: give a chunk-….parquet of its folder") from None
     return results
 
 

@@ -73,7 +73,7 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
     known = {parameter.label: parameter for parameter in concept.parameters}
     for label in given:
         if label not in known:
-            raise ValueError(f"{label} is no parameter of the concept {name}: it has {', '.join(known)}")
+            raise ValueError(f"{label} is not a parameter of the concept {name}: it has {', '.join(known)}")
     return concept, {known[label].name: known[label].from_shown(value) for label, value in given.items()}
 
 

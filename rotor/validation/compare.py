@@ -270,7 +270,7 @@ def measured_set(name: str) -> TrustSet:
     text, by_pitch = [_constant(measured), measured.note], ()
     if measured.given[0] == "collective_deg":
         by_pitch, missing = zip(*_by_pitch(comparisons[0]), strict=True)
-        text.append(f"The measured thrust takes a lower collective, in the mean by {', '.join(missing)}.")
+        text.append(f"The measured thrust needs less collective, on average by {', '.join(missing)}.")
     return TrustSet(
         name=name,
         title=measured.title,
@@ -337,7 +337,7 @@ def _constant(measured: MeasuredSet) -> str:
     """What is the same at every point."""
     same = [name for name in measured.given if name not in measured.varied]
     words = "; ".join(f"{LABELS[name]} {measured.points[0][name]:g}" for name in same)
-    return f"The same at every point: {words}." if same else ""
+    return f"Constant at every point: {words}." if same else ""
 
 
 def _points(comparisons: list[Comparison]) -> tuple[tuple[str, ...], ...]:

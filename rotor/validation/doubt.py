@@ -153,7 +153,7 @@ def doubt_set() -> TrustSet:
         band = np.mean([abs(point.error / z) for point, z in zip(mine, over, strict=True)])
         mean, inside = np.mean([point.error for point in mine]), sum(abs(z) <= 1.0 for z in over)
         shown = (
-            f"{100 * abs(mean):.0f} % too {'low' if mean > 0.0 else 'high'} in the mean, {inside} of {len(mine)} "
+            f"{100 * abs(mean):.0f} % too {'low' if mean > 0.0 else 'high'} on average, {inside} of {len(mine)} "
             f"within ± {100 * band:.0f} % ({_percent(coverage((point, sizes) for point in mine))})"
         )
         name = f"{ROTORS[rotor]}, {kind}"

@@ -58,30 +58,30 @@ _AGAINST = {
     "document": "thesis",
 }
 _ASKS = {
-    "validation": "Are these the right equations? Neither measured forward-flight power of the UH-60A nor a measured "
-    "benefit of active twist was available; published figures of both are computed. No usable measurement shows what "
+    "validation": "Are these the right equations? No measured forward-flight power of the UH-60A and no measured "
+    "benefit of active twist were available; published figures of both are computed. No usable measurement shows what "
     "built-in twist saves.",
-    "indicative": "Compared with another model, data of unclear origin or a measurement without a target; this proves "
-    "nothing.",
+    "indicative": "These sets compare with another model, data of unclear origin or a measurement without a target. "
+    "They prove nothing.",
     "verification": "Are the equations solved correctly?",
-    "public code": "The same question, answered by independent codes.",
-    "document": "Statements of the thesis beside our results.",
+    "public code": "Do independent codes give the same results?",
+    "document": "These are statements of the thesis beside our results.",
 }
 _RAISED = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
 NOT_MODELLED = (
     "a tiltrotor's second rotor, download on its wing and axial cruise",
     "blade bending, unless switched on; torsion, if the rotor file has no blade structure",
-    "lift and stall in yawed flow: radial flow changes the drag of the sections alone",
+    "lift and stall in yawed flow: radial flow changes only section drag",
     "change of lift slope due to the swept tip",
     "the trailing-edge tab of the UH-60A, at 0.73 to 0.86 R: 0.01 of C_m there would twist the tip by about 0.3°",
     "roll-up and contraction of the wake, which decide the value of twist up to µ 0.15 ([theory](theory.md), §9)",
     "the airframe except its drag and download: no upwash, no lift, no interference with the tail",
-    "wind-tunnel data of the sections themselves: XFOIL, with levels and shocks from public tunnel-derived data; see "
+    "measured section data: XFOIL computes them, with levels and shocks from public tunnel-derived data; see "
     "[assets/airfoils/CITATION.md](../assets/airfoils/CITATION.md)",
-    "drag of a real surface, unless the rotor file states it (surface_drag)",
+    "drag of a rough surface, unless the rotor file states it (surface_drag)",
     "inflow below µ 0.05 (0.075 with linear inflow), where no model is proven: wakes that respond to the load are "
     "interpolated to the hover model",
-    "climb and descent in comparison with measurement (they are verified against theory); the vortex ring state",
+    "the vortex ring state; climb and descent are verified against theory, not measurement",
 )
 
 
@@ -134,10 +134,9 @@ def summary(sets: Sequence[TrustSet]) -> str:
     return _page(
         "---\nhide-toc: true\n---",
         "# How far to trust the numbers",
-        "No model was tuned to these points but the wake path, to the tip vortices of HART II; the sizes of the "
-        "model's errors in bands are fitted to powers "
-        f"([bands](validation/doubt.md)). {words}. How uncertain a power is, and what "
-        "moves the best twist: [uncertainty](guide/doubt.md).",
+        "Two things are fitted to these points: the wake path, to the tip vortices of HART II, and the sizes of the "
+        f"model errors in [bands](validation/doubt.md), to powers. {words}. For the uncertainty of a power and of the "
+        "best twist, see [uncertainty](guide/doubt.md).",
         *parts,
         "## Not modelled",
         "\n".join(f"- {item}" for item in NOT_MODELLED),

@@ -28,10 +28,10 @@ LEFT_OUT = "Mean over rotors, each left out of the fit"
 """What the row states that tells how often the band of a power holds, in `rotor.validation.doubt`."""
 Verdict = Literal["met", "missed", "fitted", "no target"]
 VERDICTS: dict[Verdict, str] = {
-    "met": "the error is within the target: at every point, or the rms where the page of the set judges that",
-    "missed": "outside it; the page of the set states the reason if it is known",
-    "fitted": "a constant of the model was chosen by these very points, so they confirm nothing",
-    "no target": "shown, not judged",
+    "met": "the error is within the target at every point (or its rms is, where the set's page says so)",
+    "missed": "it is not; the set's page states the reason if it is known",
+    "fitted": "a constant of the model was chosen by these points, so they confirm nothing",
+    "no target": "the error is shown, not judged",
 }
 """What the verdicts mean."""
 

@@ -142,7 +142,7 @@ def _over_angle(name: str, label: str) -> Chart:
     alpha = np.arange(-5.0, 9.1, 0.25)
     computed = getattr(table(np.radians(alpha), mach), name)
     series = (
-        Points("RANS, kept aside", [math.degrees(p.alpha) for p in aside], [getattr(p, name) for p in aside]),
+        Points("RANS, held out", [math.degrees(p.alpha) for p in aside], [getattr(p, name) for p in aside]),
         Line("section table", alpha, computed, 1),
     )
     return Chart(
@@ -155,7 +155,7 @@ def _drag_rise() -> Chart:
     aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
     mach, drag = zip(*aside, strict=True)
     fine = np.arange(mach[0], mach[-1], 0.01)
-    series = (Points("RANS and net, kept aside", mach, drag), Line("section table", fine, table(alpha, fine).cd, 1))
+    series = (Points("RANS and network, held out", mach, drag), Line("section table", fine, table(alpha, fine).cd, 1))
     return Chart("Drag rise of SC1095 at 2°", Axis("Mach number"), Axis("C_d at 2°"), series)
 
 

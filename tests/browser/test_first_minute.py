@@ -25,7 +25,7 @@ def test_open_grab_undo_reload_link_disk_hover_optimise_apply(visit: Visit):
 
     # Open: a trimmed rotor, its power, and where to begin.
     as_built = kilowatts()
-    assert page.locator(".rxf-prompt").inner_text().strip() == "Pull the blade tip up or down"
+    assert page.locator(".rxf-prompt").inner_text().strip() == "Drag the blade tip up or down"
     # Grab and twist: power answers and says since when; undo takes the whole drag back, redo brings it again.
     grabbed(30.0)
     twisted = kilowatts()

@@ -120,7 +120,7 @@ def test_with_an_actuator_on_board_sliders_are_its_drives(concept: str):
     assert float(made.at(made.power["total"], x[None])[0]) == pytest.approx(exact, abs=made.error + 1.0)
     page = live_html(made.solution)
     assert "with MFC P1 at 750" in page
-    assert "What the drive takes is not in it." in page
+    assert "The power of the drive is not included." in page
 
 
 def test_in_hover_and_in_other_units_it_is_made_as_well():

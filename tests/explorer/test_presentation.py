@@ -111,7 +111,7 @@ def test_followers_play_with_sliders_of_their_own_and_the_presenter_sees_what_th
         reached = app.presentations._results[follow_name("a-secret")][1]
         assert [*reached.values()] == [standing.best.power.total]
         contents = presenter.widgets.values()
-        await presenter.until(lambda: any("Best of each player" in str(each.get("content")) for each in contents))
+        await presenter.until(lambda: any("Each player's best" in str(each.get("content")) for each in contents))
         await presenter.press("game_end")
         await follower.until(lambda: "the presenter controls this page" in follower.text("presentation"))
         await follower.idle()

@@ -127,12 +127,12 @@ def test_a_kind_that_constant_speed_forbids_says_so_first_and_is_never_green():
     pieces = LINE.view(now)["line"].pieces
     assert "with extension twist (forbidden by constant rotor speed) at 100" in line_text(now)
     assert "good" not in {piece.kind for piece in pieces}
-    assert verdict_sentence(verdict).startswith("Forbidden by constant rotor speed; could it work, it saves")
+    assert verdict_sentence(verdict).startswith("Forbidden by constant rotor speed; if it could work, it saves")
     still = worked(LINE, actuate(INPUTS, actuator=ActuatorInputs("extension_twist")))
     assert line_text(still).endswith("kW: no change from the blade without it.")
     card = ACTUATOR_CARD.view(now)["assessed"]
     assert card.flight == "forbidden by constant rotor speed"
-    assert card.flights.startswith("could it work: saves")
+    assert card.flights.startswith("if it could work: saves")
     assert "gain" not in {bar.kind for bar in earns_state(verdict, True, SI).bars if bar.total}
     assert earns_state(verdict, True, SI).fuel_kind == ""
     assert actuated_blade(now).over_flight.kind == ""

@@ -30,7 +30,7 @@ _LONGEST = 40
 """Characters of a name in the address that are looked at."""
 _WORDS = "Copies a link. Anyone with the link follows your settings live and can leave at any time."
 _FOLLOWING = "Following a presentation: the presenter controls this page."
-_PLAYING = "Your turn: move the sliders to the least power. The presenter sees the best of each player."
+_PLAYING = "Your turn: move the sliders to the least power. The presenter sees each player's best."
 _AWAY = "The presenter has left: the page is yours. It follows again if they return before you change the design."
 _DUPLICATE = (
     "Another tab of this browser is presenting; this one follows it. To present here, close that tab and reload."

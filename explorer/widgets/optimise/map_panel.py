@@ -23,7 +23,7 @@ _URGENCY = 2
 """After searches and schedules."""
 NAME = "map"
 _BEFORE = "Least power over the other parameters. Click the map to set a point."
-_KEY = f"★ least · ○ your design, if it is of this concept · white outline: within {100 * BAND:g} % of the least"
+_KEY = f"★ least · ○ your design, if it has this concept · white outline: within {100 * BAND:g} % of the least"
 
 
 class MapPanel:

@@ -137,7 +137,7 @@ def _grid(known: dict[str, Report]) -> TrustSet:
             1e-4,
             test="test_the_grid_of_linear_inflow",
             against="240 azimuths",
-            note=f"What −16° of twist adds to it errs by {', '.join(f'{error:+.2f}' for error in added)} kW.",
+            note=f"The change due to −16° of twist is off by {', '.join(f'{error:+.2f}' for error in added)} kW.",
         ),
         words.row(
             f"Power of the default model, 24 panels × 24 azimuths, {speeds}",
@@ -146,8 +146,8 @@ def _grid(known: dict[str, Report]) -> TrustSet:
             1e-3,
             test="test_the_grid_of_the_default_model",
             against="48 × 48",
-            note=f"With linear inflow the lags of stall are followed on the azimuths of the trim: {error:.1e} at 100. "
-            "The default model at µ 0.1: by its azimuths.",
+            note=f"With linear inflow stall lags use the azimuths of the trim; the error at 100 is {error:.1e}. At "
+            "µ 0.1 the error of the default model comes from its azimuths.",
         ),
         words.share(
             "Reverse-flow area, µ 0.30, counted in cells",

@@ -94,7 +94,7 @@ def _on_bound(optima: dict[str, list[runs.ConceptOptimum]], shown: Sequence[str]
     ]
     if not places:
         return ""
-    return f" On the bound of the search, {BOUND_DEG:g}° per radius, and so not optima: {', '.join(places)}."
+    return f" These lie on the bound of the search, {BOUND_DEG:g}° per radius, and are not optima: {', '.join(places)}."
 
 
 def _panel(name: str, row: list[runs.ConceptOptimum], shown: Sequence[str]) -> Chart:

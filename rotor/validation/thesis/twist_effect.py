@@ -394,7 +394,7 @@ def keys_1987() -> Report:
         models=len(over),
         usual_low_percent=low,
         usual_high_percent=high,
-        ends="both ends are" if all(near) else "not both ends are",
+        ends="both ends of the range are" if all(near) else "the two ends of the range are not both",
         without_force=ratio["flight"][0],
         with_drag=ratio["flight"][-1],
         force=force[-1],

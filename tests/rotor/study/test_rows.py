@@ -86,7 +86,7 @@ def test_a_single_file_says_enough(trims: tuple[Path, Results], tmp_path: Path):
     arrow, parquet = arrow_modules()
     parquet.write_table(arrow.table({"point": [0]}), other)
     for path in (other, Path(__file__)):
-        with pytest.raises(ValueError, match="is no result of a study"):
+        with pytest.raises(ValueError, match="is not a study result"):
             design_at(f"{path}:0")
 
 
