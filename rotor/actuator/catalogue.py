@@ -46,7 +46,7 @@ def actuators() -> dict[str, Actuator]:
 
 
 def find_actuator(id: str) -> Actuator:
-    """One actuator; ValueError names the known ones."""
+    """The actuator with this id; ValueError lists the known ids for any other."""
     check_known("actuator", id, actuators())
     return actuators()[id]
 
@@ -87,7 +87,7 @@ class Engines:
 
 
 def engines_of(aircraft: Aircraft) -> Engines | None:
-    """The engines of a shipped aircraft; None without a source for their fuel flow."""
+    """The engines of a shipped aircraft; None if their fuel flow has no source."""
     row = toml_asset("engines.toml").get(aircraft.key)
     if row is None:
         return None

@@ -165,7 +165,7 @@ class Verdict:
 
     @property
     def bands(self) -> tuple[float, ...]:
-        """Bands [W] of `savings`; 0 of the drive's, and where one is not known."""
+        """Uncertainty of each of `savings`, ± [W]; 0 for the drive and where it is not known."""
         return tuple(self.band_of(name) or 0.0 for name, _ in self.savings)
 
     @property
@@ -187,7 +187,7 @@ class Verdict:
 
     @property
     def broken(self) -> tuple[Limit, ...]:
-        """Limits that are not met."""
+        """The entries of `limits` that are not met."""
         return tuple(limit for limit in self.limits if not limit.ok)
 
     @property

@@ -43,13 +43,13 @@ class TwistLaw(Protocol):
         ...
 
     def spec(self) -> str:
-        """The law as `parse_twist` reads it."""
+        """The SPEC of the law, which `parse_twist` reads back."""
         ...
 
 
 @dataclass(frozen=True)
 class SpecTwist(TwistLaw):
-    """A law that its SPEC writes out. Here for laws whose fields are angles [rad], in the order of the SPEC."""
+    """A law with a SPEC. This base class serves laws whose fields are angles [rad], in the order of the SPEC."""
 
     kind: ClassVar[str]
     """First word of its SPEC."""
@@ -72,20 +72,20 @@ class SpecTwist(TwistLaw):
 
     @classmethod
     def of(cls, *values: float) -> Self:
-        """The law of its parameters, SI."""
+        """The law with these parameters, in SI units."""
         return cls(*values)
 
     @property
     def values(self) -> tuple[float, ...]:
-        """Its parameters, SI."""
+        """The parameters of the law in SI units."""
         return astuple(self)
 
     def spec(self) -> str:
-        """The law as `parse_twist` reads it."""
+        """The SPEC of the law, which `parse_twist` reads back."""
         return f"{self.kind}:{_pairs(self.values, ())}"
 
     def slopes(self, r: Array) -> Array:
-        """∂θ_tw(r)/∂value, exact, (values, stations)."""
+        """Exact derivatives ∂θ_tw(r)/∂value at the stations r = y/R, (values, stations)."""
         raise NotImplementedError(f"{type(self).__name__} has no parameters to search")
 
 

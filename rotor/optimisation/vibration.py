@@ -93,7 +93,7 @@ class TMatrix:
         return Response(float(values[-1]), index, dict(zip(LOADS, amplitudes, strict=True)))
 
     def twist(self, x: Array) -> tuple[Harmonic, ...]:
-        """Active twist of cosines and sines [rad], (2 H,)."""
+        """Active twist with these cosine and sine amplitudes [rad], (2 H,)."""
         pairs = zip(self.harmonics, x.reshape(-1, 2).tolist(), strict=True)
         return tuple(Harmonic(n, math.hypot(a, b), math.atan2(b, a)) for n, (a, b) in pairs if a or b)
 

@@ -52,7 +52,7 @@ class DoubtRow(Uncertain):
 
     @property
     def size_words(self) -> str:
-        """The size with its unit, as `5 %`."""
+        """The uncertainty of the input with its unit, for example `5 %`."""
         return f"{self.size:g} {self.unit}".rstrip()
 
 
@@ -138,7 +138,7 @@ class Doubt:
 
     @property
     def sentence(self) -> str:
-        """`Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure.`"""
+        """The bands in words, for example `Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure.`"""
         return self.in_words("It")
 
     def in_words(self, design: str) -> str:
@@ -150,7 +150,7 @@ class Doubt:
 
     @property
     def saving_words(self) -> str:
-        """`saves 1.8 ± 0.7 %: sure`; empty without a change."""
+        """The saving in words, for example `saves 1.8 ± 0.7 %: sure`; empty without a change."""
         change, within = self.change, self.change_band_percent
         if change is None or within is None or not self.against:
             return ""
@@ -163,7 +163,7 @@ class Doubt:
         return tag("p", self.sentence) + doubt_table(self).html()
 
     def record(self) -> dict[str, object]:
-        """For `solve --doubt --json`."""
+        """The bands as `solve --doubt --json` prints them: powers and bands [W]."""
         return {
             "power_w": self.power,
             "total_w": self.band,

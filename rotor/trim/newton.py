@@ -97,12 +97,12 @@ class Guess:
 
     @property
     def factors(self) -> Factors | None:
-        """Factors for the first steps."""
+        """LU factors of a Jacobian for the first steps; None without them."""
         return None if self.box is None else self.box.factors
 
     @property
     def array(self) -> Array:
-        """All its numbers, flat."""
+        """All numbers of the guess in one vector."""
         others = (part.ravel() for part in (self.elastic, self.bending, self.inflow) if part is not None)
         return np.concatenate([self.state.array(), *others])
 
@@ -134,12 +134,12 @@ class LinearisedTrim:
 
     @cached_property
     def elements(self) -> BladeElements:
-        """The blade elements there."""
+        """The blade elements at the solution."""
         return (hover_elements if self.problem.design.hovering else elements_of)(self.problem, self.point)
 
     @cached_property
     def stalled_moment(self) -> float:
-        """Part of the lift's moment that stalled sections carry, by the azimuths of the trim alone."""
+        """Part of the lift moment that stalled sections carry [-], on the azimuths of the trim."""
         return own_stalled_parts(self.problem, self.elements)[1]
 
 
@@ -167,7 +167,7 @@ class TrimResult:
 
     @property
     def state(self) -> TrimState:
-        """In forward flight."""
+        """Controls, flapping and inflow of the iterate in forward flight."""
         return state_of(self.point.system.structure, self.point.x)
 
     @property

@@ -162,7 +162,7 @@ class CurveAgreement:
 
 
 def measured_curves() -> tuple[MeasuredCurve, ...]:
-    """All of them, in the order of `CASES`."""
+    """All measured airload curves, in the order of `CASES`."""
     return tuple(curve for case in CASES for curve in _curves(case))
 
 
@@ -271,7 +271,7 @@ def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement
 
 
 def agreement(measured: MeasuredCurve, solution: Solution) -> CurveAgreement:
-    """A measured curve beside that of a solution."""
+    """Agreement of a measured curve with the curve that a solution gives."""
     theirs, computed = measured.waves, harmonics(*computed_curve(measured, solution), measured.highest)
     wave, other = computed[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
     size = math.sqrt((wave @ wave) * (other @ other))
