@@ -120,7 +120,7 @@ class Carried:
 
 @dataclass(frozen=True)
 class Blade:
-    """One blade."""
+    """A blade: planform, sections, hinges and mass; lengths in metres, stations r = y/R."""
 
     root_cutout: float
     """r/R where the lifting blade begins."""

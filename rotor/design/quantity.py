@@ -49,7 +49,7 @@ class Slider:
 
 @dataclass(frozen=True)
 class Quantity:
-    """One quantity of a design."""
+    """One quantity of a design: its names, unit, bounds and texts, and how to get and set it."""
 
     name: str
     """Argument of `make_design`, and of a study; people read the unit of a number at its end."""

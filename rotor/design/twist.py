@@ -168,7 +168,7 @@ class PiecewiseLinearTwist(SpecTwist):
         return f"segments:{_pairs(self.rates, self.breaks)}"
 
     def slopes(self, r: Array) -> Array:
-        """By a rate: the length of its segment between 0.75 R and r; by a break: the jump of rate there, for r beyond.
+        """Slopes: by a rate, the length of its segment from 0.75 R to r; by a break, its jump of rate, for r beyond.
 
         On the break itself the slope is that from inboard.
         """
@@ -217,7 +217,7 @@ class SplineTwist(SpecTwist):
 
     @classmethod
     def of(cls, *values: float) -> Self:
-        """Through angles at `SEARCHED_STATIONS`."""
+        """The law through these angles [rad] at `SEARCHED_STATIONS`."""
         return cls(SEARCHED_STATIONS, values)
 
     def spec(self) -> str:

@@ -202,7 +202,7 @@ def _measured(trim: Analysis, shaped: Design) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class FrontPoint:
-    """One compromise between power and vibration, trimmed."""
+    """One trimmed point of the trade-off between power and vibration."""
 
     design: Design
     power: float

@@ -464,6 +464,6 @@ class Waterfall:
 
 
 def waterfall(design: Design) -> Waterfall:
-    """All switches on one after another, then each one off alone; a trim for each."""
+    """Trim with the switches on one after another, then with each one alone off."""
     steps, on = tuple(waterfall_steps(design)), 1 + len(SWITCHES)
     return Waterfall(steps[:on], steps[on:])

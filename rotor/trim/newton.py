@@ -116,7 +116,7 @@ class Guess:
         return replace(self, state=TrimState.from_array(numbers[: len(STATE_NAMES)]), **parts)
 
     def ahead(self, before: "Guess", steps: float) -> "Guess":
-        """So many steps ahead on the secant that leads from an earlier trim to this one; itself where they differ in
+        """The guess `steps` ahead on the secant from an earlier trim to this one; itself where they differ in
         kind."""
         here, there = self.array, before.array
         if len(here) != len(there) or self.inflow_kind != before.inflow_kind:

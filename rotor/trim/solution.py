@@ -100,7 +100,7 @@ class DiskFields(OnDisk, ShortRepr):
 
     @property
     def pitch_of_alpha(self) -> Array:
-        """θ with what the flow at three quarters of the chord adds to α, see `display.pitch_of_alpha`."""
+        """Pitch θ plus the part of α from the flow at three-quarter chord [rad], see `display.pitch_of_alpha`."""
         return self.theta if self.find_apparent is None else pitch_of_alpha(self)
 
     @property
@@ -365,7 +365,7 @@ class Solution:
 
 
 def require_solution(given: object) -> Solution:
-    """What is given, or TypeError with one sentence when it is no solution."""
+    """The argument, if it is a solution; TypeError with one sentence otherwise."""
     if not isinstance(given, Solution):
         raise TypeError(f"solution is {given!r:.80}: give what rotor.solve returns")
     return given

@@ -34,7 +34,7 @@ HIGHEST_TIP = 3
 
 @dataclass(frozen=True)
 class FlownCase:
-    """One condition of a test."""
+    """One measured condition of a flight or wind-tunnel test."""
 
     test: str
     """Name of the set on the command line."""
@@ -155,7 +155,7 @@ class CurveAgreement:
         return abs(wave_amplitude(self.waves, n) - measured) / abs(measured)
 
     def to_dict(self) -> dict[str, Any]:
-        """For `validate --json`."""
+        """The agreement as `validate --json` prints it."""
         names = ("quantity", "r", "correlation", "rms", "measured_rms", "mean", "measured_mean")
         waves = {"harmonics": self.waves.tolist(), "measured_harmonics": self.measured_waves.tolist()}
         return {"test": self.case.test, "case": self.case.name} | {name: getattr(self, name) for name in names} | waves
