@@ -302,8 +302,8 @@ def _doubts(shares: Sequence[float], against: Against, *blades: Sequence[Solutio
     savings count from, with the actuator's mass, and free."""
     known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
     flown, still, own, other, loaded, ideal = ([known[id(trim)] for trim in trims] for trims in blades)
-    alike = own == other or against == "best-fixed"
-    steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
+    same_blade = own == other or against == "best-fixed"
+    steps = {"blade": (own, other), "gross": (flown, still if same_blade else other)}
     steps |= {"stiffness": (still, own), "mass": (loaded, flown), "ideal": (ideal, still if own == other else other)}
     return {name: difference_doubt(shares, *step) for name, step in {"net": (loaded, other), **steps}.items()}
 

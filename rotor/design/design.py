@@ -282,7 +282,7 @@ class Design:
                 for name in ("hover_inflow", "low_speed", "loss_on", *switches, *quantities.OPTIONS)
                 if name in switches or getattr(self.models, name) != getattr(preset, name)
             },
-            **{name: asked for name, asked in grid_asked(self.models, preset).items() if asked is not None},
+            **{name: asked for name, asked in grid_arguments(self.models, preset).items() if asked is not None},
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
             **({} if stand is None else {"trim": self.models.trim, "stand": stand.record()}),
@@ -515,7 +515,7 @@ def with_grid(models: Models, elements: int | None = None, azimuths: int | None 
     return replace(models, **{name: value for name, value in asked.items() if value is not None})
 
 
-def grid_asked(models: Models, plain: Models) -> dict[str, int | None]:
+def grid_arguments(models: Models, plain: Models) -> dict[str, int | None]:
     """The arguments of `with_grid` that make these models of a preset's; None for its own numbers."""
     asked_for = dict[str, int | None]()
     for asked, line in (("elements", "panels"), ("azimuths", "line_azimuths")):

@@ -183,7 +183,7 @@ class Doubt:
 
 
 def doubt_table(doubt: Doubt) -> Table:
-    """What the bands consist of."""
+    """The contributions to the bands, one row for each uncertain input."""
     symbol, size = power_unit(doubt.power, doubt.band)
     rows: list[tuple[CellValue, ...]] = [
         (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size) for row in doubt.rows
@@ -330,7 +330,7 @@ def with_other_inflow(design: Design) -> Design:
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _OtherTrim:
     design: Design
     start: Guess = field(compare=False)
     """Of the trim of the same design."""
@@ -338,11 +338,11 @@ class _Asked:
 
 def _powers_with_other_inflow(solution: Solution) -> Array | None:
     """By `PARTS` [W]; None where it does not trim."""
-    return _powers(_Asked(with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)))
+    return _powers(_OtherTrim(with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)))
 
 
 @lru_cache(maxsize=64)
-def _powers(asked: _Asked) -> Array | None:
+def _powers(asked: _OtherTrim) -> Array | None:
     other = solve(asked.design, asked.start, FEW_DIGITS)
     return by_part(other.power) if other.converged else None
 
