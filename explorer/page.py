@@ -186,7 +186,7 @@ class Page:
         """Presses that no part of the page has for itself."""
         context, bridge, camera = self.context, self.context.bridge, self.scene.camera
         context.resting.append(self.follower.rest)
-        context.owing.append(self.follower.owed)
+        context.waiting.append(self.follower.is_waiting)
         context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
         context.layout.watchers.append(partial(self.follower.follow, AT_ONCE.__contains__))
         self.scene.on_press(lambda metres: self._curve.grab(metres / camera.radius))

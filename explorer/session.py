@@ -218,7 +218,7 @@ class Session:
     def _answer_when_idle(self, asked: IdlePress) -> None:
         """Give the page its number back once all that it sent before is answered (`RX.idle` of frame.js)."""
         wait_for_callbacks(self._client)
-        self._worker.until_answered(asked.wholly, lambda: any(owes() for owes in self.page.context.owing))
+        self._worker.until_answered(asked.wholly, lambda: any(is_waiting() for is_waiting in self.page.context.waiting))
         self.page.context.bridge.set(idle=asked.serial)
 
     def _see(self, seen: bool) -> None:

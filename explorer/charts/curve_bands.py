@@ -16,7 +16,7 @@ _BANDED = (0, 2, 4, 6, 8, 12, 16)
 
 
 def curve_bands(design: Design, reference: Design | None) -> Bands:
-    """Of the change from the reference, without one of the power, where both trim."""
+    """Bands [W] of the change from the reference at the speeds where both trim; without a reference, of the power."""
     found, before = list[tuple[float, float]](), list[Solution]()
     family = any_speed(design), *(() if reference is None else (any_speed(reference),))
     for mu in (SWEEP[k] for k in _BANDED):

@@ -37,7 +37,7 @@ _QUANTITIES = {
 
 
 class MeasuredChart:
-    """One session's: the points are trimmed while the page rests, and kept for each blade and its models."""
+    """The measured points of a session, trimmed while the page rests and kept for each blade and its models."""
 
     def __init__(self) -> None:
         self._points: dict[tuple[str, Design], tuple[ComparedPoint, ...]] = {}
@@ -147,7 +147,7 @@ def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution:
 
 
 class FlownPowers:
-    """One session's: each flight is trimmed once for each choice of models."""
+    """The measured flights of a session, each trimmed once for each choice of models."""
 
     def __init__(self) -> None:
         self._computed: dict[Design, dict[str, float]] = {}

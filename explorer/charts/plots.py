@@ -165,8 +165,8 @@ class PowerCurves:
         begun, slow = time.monotonic(), int(slowest_swept(family) > 0.0)
         values = np.full((3, len(SWEEP)), math.nan)
         points: dict[int, Guess] = {}
-        before = self._starts if self._last is not None and _alike(self._last, family) else {}
-        base = self._fine[1] if self._fine is not None and _alike(self._fine[0], family) else None
+        before = self._starts if self._last is not None and _same_unknowns(self._last, family) else {}
+        base = self._fine[1] if self._fine is not None and _same_unknowns(self._fine[0], family) else None
         end, lost = len(SWEEP), 0
         few = _FEW if base is None else _FEWEST
         for k in (*few, *(k for k in range(end) if k not in few)):
@@ -210,7 +210,7 @@ def slowest_swept(design: Design) -> float:
     return 0.0 if passes_over(design) else LOW_SPEED
 
 
-def _alike(design: Design, other: Design) -> bool:
+def _same_unknowns(design: Design, other: Design) -> bool:
     """Whether trims of one design are starts for the other: the same unknowns on the same grid."""
     return (design.rotor, design.models, design.condition.stand) == (other.rotor, other.models, other.condition.stand)
 

@@ -92,7 +92,7 @@ def place_on(drawn: PowerMap, twist: TwistLaw) -> tuple[float, float] | None:
 
 
 def rail_name(parameter: Parameter) -> str:
-    """Its name, as on its slider."""
+    """Name of a parameter as its slider shows it."""
     return parameter.short or parameter.title
 
 

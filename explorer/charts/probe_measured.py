@@ -70,7 +70,7 @@ def with_indices(words: str) -> Markup:
 
 
 @dataclass(frozen=True, eq=False)
-class BesideMeasured:
+class AirloadComparison:
     """Measured curves, and the computed ones of one solution."""
 
     case: FlownCase
@@ -82,7 +82,7 @@ class BesideMeasured:
     """A measured curve, then azimuths [rad] and computed values."""
 
 
-def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
+def airload_comparison(solution: Solution, r: float) -> AirloadComparison | None:
     """What was measured nearest to r/R in the condition most like that of a solution; None without a measurement.
 
     In hover nothing depends on the azimuth, and nothing was measured.
@@ -101,10 +101,10 @@ def beside_measured(solution: Solution, r: float) -> BesideMeasured | None:
         for quantity in dict.fromkeys(curve.quantity for curve in curves)
     ]
     pairs = tuple((curve, *computed_curve(curve, solution)) for curve in nearest)
-    return BesideMeasured(case, is_at(case, design), as_measured(design), pairs)
+    return AirloadComparison(case, is_at(case, design), as_measured(design), pairs)
 
 
-def measured_panel(beside: BesideMeasured, psi: float) -> Markup:
+def measured_panel(beside: AirloadComparison, psi: float) -> Markup:
     """The curves one beneath the other; `psi`: azimuth of the probe [rad]."""
     condition = condition_of(beside.case.rotor, beside.case.name)
     name = beside.case.name if condition is None else f"{condition.test}, {condition.label.partition(',')[0]}"

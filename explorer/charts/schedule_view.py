@@ -27,7 +27,7 @@ _COLUMNS = (
 
 @dataclass(frozen=True)
 class ScheduleProgress:
-    """What is known of a plan with one concept."""
+    """The optima of one concept of a plan that are known so far."""
 
     plan: SchedulePlan
     cells: tuple[ScheduleOptimum, ...] = ()
@@ -60,7 +60,7 @@ class ScheduleProgress:
 
     @property
     def part_done(self) -> float:
-        """0…1"""
+        """Finished part of the plan, 0…1."""
         return len(self.cells) / (len(self.plan.conditions) + 1)
 
 

@@ -250,7 +250,7 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
             words=(f"Longest {word}: µ {mu:.2f}, if fuel flow follows power",),
             names=(word,),
             size=3.5,
-            beside="above" if word == "endurance" else "below",
+            name_place="above" if word == "endurance" else "below",
         )
 
     rules = [Rule(mu, label=word, colour=LOOKS["limit"][0]) for mu, word in walls]

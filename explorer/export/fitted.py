@@ -92,7 +92,7 @@ class Family:
         return np.array([(number - one.centre) / one.half for number, one in zip(numbers, self.handles, strict=True)])
 
     def numbers(self, x: Array) -> list[float]:
-        """Of the sliders, from −1…1."""
+        """Positions of the sliders, in their units, from scaled values −1…1."""
         return [one.centre + one.half * float(at) for at, one in zip(x, self.handles, strict=True)]
 
     def design(self, x: Array) -> Design:
@@ -119,7 +119,7 @@ class Fitted:
 
     @cached_property
     def exponents(self) -> Array:
-        """Of each term, in the order of every vector of coefficients, (terms, sliders)."""
+        """Exponents of each term, in the order of every vector of coefficients, (terms, sliders)."""
         return _exponents(self.x.shape[1], 4)
 
     def fit(self, values: Callable[[Solution], Any]) -> Array:
@@ -137,12 +137,12 @@ class Fitted:
 
     @cached_property
     def errors(self) -> Array:
-        """Of total power at the tested twists [W]."""
+        """Errors of total power at the tested twists [W]."""
         return np.abs(self.at(self.power["total"], self.tested_x) - _totals(self.tested))
 
     @property
     def error(self) -> float:
-        """What the error of total power stays below [W]: the largest of those measured, with a margin."""
+        """Bound of the error of total power [W]: the largest of `errors`, with a margin."""
         return _MARGIN * float(self.errors.max())
 
     @cached_property

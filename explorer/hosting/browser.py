@@ -55,7 +55,7 @@ def copy_link(client: viser.ClientHandle, query: str) -> None:
 
 
 class Bridge:
-    """One browser's. Actions run one after another, in the order of the presses, on a thread of their own.
+    """The link to one browser. Actions run one after another, in the order of the presses, on a thread of their own.
 
     Those that take no time may run at once, on the event loop, before anything that the page sends later.
     """

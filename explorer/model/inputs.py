@@ -17,7 +17,7 @@ from rotor import Aircraft, Design, make_design
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import ActiveTwist, Harmonic, IdealTwist, SumTwist, TwistLaw
 from rotor.design.blade import airfoils_spec
-from rotor.design.design import FLIGHT_MODELS, grid_asked, preset_models, with_grid
+from rotor.design.design import FLIGHT_MODELS, grid_arguments, preset_models, with_grid
 from rotor.design.quantities import AIRFRAME, CONDITION, QUANTITIES
 from rotor.design.quantity import Quantity, Slider
 from rotor.files.make_design import change_airfoils
@@ -189,7 +189,7 @@ class Inputs(_Quantities):
 
     @property
     def parameters(self) -> list[float]:
-        """Those of the law on the sliders, SI."""
+        """Parameters of the law on the sliders, in SI units."""
         law = LAWS[self.law]
         return [one.from_shown(getattr(self, name)) for name, one in zip(law.inputs, law.parameters, strict=True)]
 
@@ -289,7 +289,7 @@ def inputs_of(design: Design) -> Inputs:
         **{name: row.as_input(row.of(design)) for name, row in FLIGHT.items()},
         **{name: design.unusual.get(row.name) for name, row in HELD.items()},
         **{name: row.of(design) for name, row in MODELS.items()},
-        **grid_asked(design.models, preset_models(design.preset)),
+        **grid_arguments(design.models, preset_models(design.preset)),
     )
     if design.aircraft.isolated:
         start = replace(start, mass_t=reference_mass_t(design.aircraft))

@@ -21,7 +21,7 @@ import numpy as np
 
 from explorer.model.inputs import FLIGHT, LAWS, ROWS, Inputs, mass_range
 from explorer.model.undo import differing
-from explorer.model.units import AVIATION, POUND, SI, Units, form_of, meant, number
+from explorer.model.units import AVIATION, POUND, SI, Units, form_of, number, slider_input
 from rotor import Aircraft, Solution, solve
 from rotor.design.quantities import STAND
 from rotor.design.quantity import Slider
@@ -67,7 +67,7 @@ def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
     in_si, in_aviation = slider(name, SI, aircraft), slider(name, AVIATION, aircraft)
     if (row := ROWS[name]).aviation is None:
         return in_si.low, in_si.high
-    low, high = meant(row, in_aviation.low, AVIATION), meant(row, in_aviation.high, AVIATION)
+    low, high = slider_input(row, in_aviation.low, AVIATION), slider_input(row, in_aviation.high, AVIATION)
     return min(in_si.low, low), max(in_si.high, high)
 
 
@@ -183,10 +183,10 @@ def nearest_trim(
     [kg], which the sentence counts and the slider does not.
     """
     moved = differing(good, wanted)
-    told = {names: found.groups() for names, pattern in _NAMED.items() if (found := re.search(pattern, sentence))}
-    for names in sorted(told, key=lambda names: moved.isdisjoint(names)):
+    named = {names: found.groups() for names, pattern in _NAMED.items() if (found := re.search(pattern, sentence))}
+    for names in sorted(named, key=lambda names: moved.isdisjoint(names)):
         there = wanted
-        for name, value in zip(names, told[names], strict=True):
+        for name, value in zip(names, named[names], strict=True):
             step = slider(name, SI, wanted.aircraft).step
             value = float(value) - (carried if name == "mass_t" else 0.0)
             steps = math.floor(value / ROWS[name].input_size / step + 1e-6)
@@ -370,7 +370,7 @@ class BestTurn:
 
     @property
     def turn(self) -> float | None:
-        """[°]; None while it is not known, or no minimum is near."""
+        """The turn of least power [°]; None while it is not known, or no minimum is near."""
         least = self._least
         return None if least is None else least[0]
 

@@ -97,7 +97,7 @@ def load_of(solution: Solution, load: str) -> float:
             return round(math.degrees(solution.controls.collective), 2)
 
 
-def stand_like(solution: Solution) -> StandInputs:
+def equivalent_stand(solution: Solution) -> StandInputs:
     """The wind tunnel in which the rotor does what it does in this flight."""
     design = solution.design
     return StandInputs(

@@ -35,7 +35,7 @@ class LongestPause:
         self._last, self._longest = now, 0.0
 
     def longest(self) -> float:
-        """[s]"""
+        """The longest pause [s]."""
         longest, self._longest = self._longest, 0.0
         return longest
 

@@ -73,7 +73,7 @@ def shown(row: Quantity, value: float, units: "Units") -> float:
     return value if row.aviation is None else value * row.input_size / form_of(row, units).size
 
 
-def meant(row: Quantity, place: float, units: "Units") -> float:
+def slider_input(row: Quantity, place: float, units: "Units") -> float:
     """The input, in the unit of its name, that a place on the slider means, to nine decimals."""
     return place if row.aviation is None else round(place * form_of(row, units).size / row.input_size, 9)
 

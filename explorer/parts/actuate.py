@@ -120,7 +120,7 @@ class AssessedPart:
 
     `tip`, `reach`: twist at the tip in flight. `masses`: name and kilograms of each part. `flight`: what it gives by
     schedule over the mission, or why it cannot work; `flights`: the mission, and what it would give. `vibration`: of
-    what flies here. `over`: limits that are exceeded, `asked`: those that only the best twist would exceed; `feasible`:
+    this flight. `over`: limits that are exceeded, `required`: those that only the best twist would exceed; `feasible`:
     what a press changes so that it can be built. `baselines`: name and title of each blade that changes may count from;
     `against`: the name of the one that they do. `sentence`: all of it. `pays`: words, and every second one a number
     with which it would pay, the other as it is: `range` of twist [°], `kilograms`.
@@ -135,7 +135,7 @@ class AssessedPart:
     vibration: str
     problem: str
     over: tuple[str, ...]
-    asked: tuple[str, ...]
+    required: tuple[str, ...]
     feasible: str
     against: str
     baselines: tuple[tuple[str, str], ...]

@@ -34,15 +34,15 @@ class PowerShare:
 class PowerPart:
     """The power card: its parts and why it changed.
 
-    `ideal`: least induced power at this lift, as a share of all parts. `held`: how often a measured power lies in the
-    band of a computed one.
+    `ideal`: least induced power at this lift, as a share of all parts. `coverage`: how often a measured power lies in
+    the band of a computed one.
     """
 
     parts: Sequence[PowerShare] = ()
     ideal: float | None = None
     ideal_title: str = ""
     why: str = ""
-    held: str = ""
+    coverage: str = ""
 
 
 @dataclass(frozen=True)
@@ -72,13 +72,13 @@ class LinePiece:
 
 @dataclass(frozen=True)
 class LinePart:
-    """The sentence on top. `said`: labels of the sliders whose place it tells. `problem`: why there is no
+    """The sentence on top. `named_sliders`: labels of the sliders that it names. `problem`: why there is no
     trim; the other parts then show the last one.
     """
 
     pieces: Sequence[LinePiece]
     status: Status
-    said: Sequence[str] = ()
+    named_sliders: Sequence[str] = ()
     problem: str = ""
     held: bool = False
 

@@ -41,7 +41,7 @@ class StepText:
 
     @property
     def parts(self) -> tuple[str, ...]:
-        """All of it but the title."""
+        """All texts of the step except the title."""
         return tuple(filter(None, (self.watch, self.question, *self.options, self.answer, self.todo, self.a, self.b)))
 
 
@@ -94,7 +94,7 @@ class LectureStep:
     """Mode of the page in which the step is seen."""
 
     def begin(self) -> Inputs:
-        """What stands on the sliders at first."""
+        """The inputs at the start of the step."""
         return self.control.apply(self.inputs, self.control.values[self.control.start])
 
 

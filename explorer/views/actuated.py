@@ -20,7 +20,7 @@ from explorer.model.actuator_inputs import (
     verdict_tasks,
 )
 from explorer.views.dial_answer import HARMONICS, FittedBlade
-from explorer.views.page_state import OpenPanels, PageState, PanelWork, in_one
+from explorer.views.page_state import OpenPanels, PageState, PanelWork, as_one_step
 from explorer.views.work import doubt_work
 from explorer.workers.call import Call
 from rotor import Design, Solution, solve
@@ -137,24 +137,24 @@ class ActuatedBlade:
 
     @property
     def range(self) -> float:
-        """From one end of the reach to the other."""
+        """Range of tip twist over the whole drive [rad]."""
         return self.installed.attainable
 
     @property
     def fixed_twist(self) -> TwistLaw | None:
-        """Of the blade that changes count from; None while that is worked out."""
+        """Twist of the reference blade, from which changes count; None while it is computed."""
         if self.inputs.against == "same-blade":
             return self.design.twist
         return None if self.verdict is None else self.verdict.baseline.fixed_twist
 
     @property
     def here(self) -> PowerChange | None:
-        """In this flight: the power on the page, its drive included, less that of the blade that changes count from."""
-        trims, drive = self.now.of(trims_here), self.now.of(drive_here)
+        """Change of power in this flight, drive included, from the reference blade; None while it is not known."""
+        trims, drive = self.now.of(compared_trims), self.now.of(drive_power)
         if trims is None or drive is None:
             return None
         flown, other = trims
-        task = self.now.of(doubt_here)
+        task = self.now.of(flight_doubt)
         doubt = None if task is None else self.now.answers.get(task.key)
         change = flown.power.total - other.power.total + drive
         band = None if doubt is None or doubt.sureness is None else doubt.change_band  # Less is what trims end at.
@@ -162,8 +162,8 @@ class ActuatedBlade:
 
     @property
     def vibration(self) -> tuple[float, ...] | None:
-        """In this flight [%], by inflow model; empty where there are no hub loads, None on its way."""
-        known = self.now.answers.get(self.now.of(effect_asked))
+        """Vibration index in this flight [%] by inflow model; empty without hub loads, None while it is computed."""
+        known = self.now.answers.get(self.now.of(effect_call))
         return known.index if isinstance(known, EffectInFlight) else () if isinstance(known, str) else None
 
     @property
@@ -200,8 +200,8 @@ def counted_from(now: PageState) -> Design | None:
     return replace(one.design, twist=one.fixed_twist or one.design.twist, active_twist=None, pitch_per_rev=())
 
 
-def trims_here(now: PageState) -> tuple[Solution, Solution] | None:
-    """What the page shows, and the blade that changes count from; None where not both are known."""
+def compared_trims(now: PageState) -> tuple[Solution, Solution] | None:
+    """Solutions of the design shown and of the reference blade; None while either is unknown."""
     state, one = now.state, actuated_blade(now)
     if now.problem or state is None or one is None or one.fixed_twist is None or not state.baseline.converged:
         return None
@@ -209,9 +209,9 @@ def trims_here(now: PageState) -> tuple[Solution, Solution] | None:
     return (state.solution, state.baseline) if known else None
 
 
-def doubt_here(now: PageState) -> PanelWork | None:
+def flight_doubt(now: PageState) -> PanelWork | None:
     """How sure the change of power in this flight is; the power card asks the same unless A is pinned."""
-    trims = now.of(trims_here)
+    trims = now.of(compared_trims)
     return None if trims is None or trims[0].design == trims[1].design else doubt_work("doubt", *trims, now.analyses)
 
 
@@ -221,9 +221,9 @@ def fitted(now: PageState) -> FittedBlade | None:
     return None if one is None else FittedBlade(one.installed, one.inputs.driven_at(one.installed))
 
 
-def effect_asked(now: PageState) -> Call | None:
+def effect_call(now: PageState) -> Call | None:
     """Trims with blades that bend, of what the page shows and of the blade compared with: for vibration."""
-    trims = now.of(trims_here)
+    trims = now.of(compared_trims)
     return None if trims is None else Call(effect, (bending(trims[0].design), bending(trims[1].design)))
 
 
@@ -234,11 +234,11 @@ def still_work(now: PageState) -> PanelWork | None:
     flown = now.state.solution
     still = replace(flown.design, active_twist=None)
     return PanelWork(
-        "still", (still,), in_one(lambda: flown if flown.design == still else solve(still, flown)), soon=True
+        "still", (still,), as_one_step(lambda: flown if flown.design == still else solve(still, flown)), soon=True
     )
 
 
-def per_rev_here(now: PageState) -> tuple[float, float] | None:
+def per_rev_power(now: PageState) -> tuple[float, float] | None:
     """What twist at n/rev alone adds to what the page shows [W]: all of it, and the part that its drive takes, as heat
     and as work on the blade; None where that is not known."""
     work, waves = now.of(still_work), now.inputs.twist_per_rev
@@ -247,18 +247,18 @@ def per_rev_here(now: PageState) -> tuple[float, float] | None:
     flown, still = now.state.solution, None if work is None else now.answers.get(work.key)
     if still is None or not still.converged:
         return None
-    drive = heat_here(now) + pitching_power(flown) - pitching_power(still)
+    drive = per_rev_heat(now) + pitching_power(flown) - pitching_power(still)
     return flown.power.total - still.power.total + drive, drive
 
 
-def drive_here(now: PageState) -> float | None:
+def drive_power(now: PageState) -> float | None:
     """Power that the drive takes in this flight [W]: held, and at n/rev; None where that is not known."""
     verdict = one.verdict if (one := actuated_blade(now)) is not None and now.hand.actuator.driven else None
-    per_rev = now.of(per_rev_here)
+    per_rev = now.of(per_rev_power)
     return None if per_rev is None else per_rev[1] + (0.0 if verdict is None else verdict.drive.hold_power)
 
 
-def heat_here(now: PageState) -> float:
+def per_rev_heat(now: PageState) -> float:
     """Heat in the plies of all blades at n/rev [W]."""
     if (on_blade := now.of(fitted)) is None:
         return 0.0
@@ -266,10 +266,10 @@ def heat_here(now: PageState) -> float:
     return sum(losses.get(each.per_rev, 0.0) * math.degrees(each.amplitude) ** 2 for each in now.inputs.twist_per_rev)
 
 
-def parts_asked(now: PageState) -> Call | None:
+def parts_call(now: PageState) -> Call | None:
     """Trims of the blade that changes count from, the present one, with the actuator's twist, with its stiffness, with
     its mass; None where not all are known."""
-    trims, one = now.of(trims_here), actuated_blade(now)
+    trims, one = now.of(compared_trims), actuated_blade(now)
     if trims is None or one is None:
         return None
     flown, bare = trims[0].design, replace(one.design, active_twist=None, pitch_per_rev=())
@@ -277,10 +277,10 @@ def parts_asked(now: PageState) -> Call | None:
     return Call(powers, ((trims[1].design, bare, twisted, one.installed.on(twisted), flown),))
 
 
-def parts_here(now: PageState) -> tuple[tuple[str, float, float], ...]:
+def saving_parts(now: PageState) -> tuple[tuple[str, float, float], ...]:
     """Name, saving and its band [W] of each part in this flight, the savings as `Verdict.savings`; their sum is
     `ActuatedBlade.here`."""
-    found, drive = now.answers.get(now.of(parts_asked)), now.of(drive_here)
+    found, drive = now.answers.get(now.of(parts_call)), now.of(drive_power)
     if not isinstance(found, tuple) or drive is None:
         return ()
     steps = pairwise(cast("tuple[tuple[float, float], ...]", found))
@@ -289,7 +289,7 @@ def parts_here(now: PageState) -> tuple[tuple[str, float, float], ...]:
     return (*(part for part in parts if part[1] or part[0] in ("gross", "mass")), ("drive", 0.0 - drive, 0.0))
 
 
-def here_problem(now: PageState) -> str:
+def no_verdict(now: PageState) -> str:
     """Why there is no verdict, or none in this flight; empty where there is one or it is on its way."""
     one, state = actuated_blade(now), now.state
     if one is not None and isinstance(one.outcome, str):

@@ -8,7 +8,7 @@ from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import kilograms, limit_words, mass_parts, needs_words, pair_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, here_problem
+from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, no_verdict
 from explorer.views.dial_answer import FittedBlade, peak_of
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.kind import Limit
@@ -76,11 +76,11 @@ def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Each limit that is exceeded, with value and bound: its own, and those that only the best twist would exceed."""
     broken = () if one.verdict is None else one.verdict.broken
     reach = one.installed.actuator.range_limits
-    own, asked = ([_limit(each) for each in broken if (each.name in reach) == short] for short in (False, True))
+    own, required = ([_limit(each) for each in broken if (each.name in reach) == short] for short in (False, True))
     peak = peak_of(one.now.inputs.twist_per_rev)
     room = FittedBlade(one.installed, one.inputs.driven_at(one.installed)).room
     own += [f"twist at n/rev {number(peak, 2)} of {number(room, 2)}°"] if peak > room + 0.005 else []
-    return tuple(own), tuple(asked)
+    return tuple(own), tuple(required)
 
 
 def _limit(limit: Limit) -> str:
@@ -96,7 +96,7 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         return {} if now.problem else {"assessed": None}
     units, against = now.units, one.inputs.against
     *parts, (_, total) = mass_parts(one.installed).items()
-    (sentence, pays), (over, asked) = _sentences(one, units), _over(one)
+    (sentence, pays), (over, required) = _sentences(one, units), _over(one)
     forbidden, gives = one.installed.actuator.forbidden, _gives(one, units)
     could = f"if it could work: {gives}, " if forbidden else ""
     part = AssessedPart(
@@ -107,9 +107,9 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         flight=forbidden or gives,
         flights="" if one.verdict is None else f"{could}{pair_words(one.verdict)}",
         vibration=_vibration(one),
-        problem=here_problem(now),
+        problem=no_verdict(now),
         over=over,
-        asked=asked,
+        required=required,
         feasible=_change_words(one, now.of(feasible)),
         against=against,
         baselines=tuple((each, against_words(one, each)) for each in AGAINST),

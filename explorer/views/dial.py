@@ -15,7 +15,7 @@ from explorer.model.units import number
 from explorer.parts.actuate import DialMatrix, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import effect_asked, fitted, heat_here, in_actuate, per_rev_here, still_work
+from explorer.views.actuated import effect_call, fitted, in_actuate, per_rev_heat, per_rev_power, still_work
 from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelWork, Questions, SetGrabbed
 from explorer.workers.call import Call
@@ -75,13 +75,13 @@ def _moved(now: PageState) -> Call | None:
 def _settled(now: PageState) -> ModelChanges | str | None:
     """What n/rev twist alone changes, as trimmed: power here, that of the other inflow models and vibration once they
     are known. Why that is not known, or None on its way."""
-    known, found, unit = now.of(per_rev_here), now.answers.get(now.of(_moved)), now.units.power[0]
+    known, found, unit = now.of(per_rev_power), now.answers.get(now.of(_moved)), now.units.power[0]
     if not now.inputs.twist_per_rev:
         return ModelChanges((0.0,), (0.0,))
     if known is None or isinstance(found, str):
         return found if isinstance(found, str) else None
     others, index = (found.power[1:], found.index) if isinstance(found, EffectInFlight) else ((), ())
-    powers = known[0], *(power + heat_here(now) for power in others)
+    powers = known[0], *(power + per_rev_heat(now) for power in others)
     return ModelChanges(tuple(map(unit.of, powers)), tuple(round(change, 2) for change in index))
 
 
@@ -92,7 +92,7 @@ def works(now: PageState) -> tuple[PanelWork, ...]:
 
 def asks(now: PageState) -> tuple[Questions, ...]:
     """What is trimmed first; then two processes share the inflow models."""
-    trimmed, calls = [call for call in (now.of(effect_asked), now.of(_moved)) if call], now.of(_asked)
+    trimmed, calls = [call for call in (now.of(effect_call), now.of(_moved)) if call], now.of(_asked)
     first = Questions(_URGENCY, tuple(trimmed), _DELAY_S)
     return first, Questions(_LATER, calls[::2], _DELAY_S), Questions(_LATER + 1, calls[1::2], _DELAY_S)
 

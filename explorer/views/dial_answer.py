@@ -9,7 +9,7 @@ import numpy as np
 
 from explorer.parts.actuate import DialNumbers
 from rotor import Design, t_matrix
-from rotor.actuator import InstalledActuator, steady_room, tip_amplitude
+from rotor.actuator import InstalledActuator, harmonic_share, tip_amplitude
 from rotor.actuator.harmonic import bending
 from rotor.design import Harmonic
 from rotor.optimisation.vibration import front_twists, with_power_of
@@ -36,8 +36,8 @@ class FittedBlade:
 
     @property
     def room(self) -> float:
-        """Of `whole`, what steady drive leaves for n/rev [°]."""
-        return self.whole * steady_room(self.installed, self.volts)
+        """Amplitude that steady drive leaves for n/rev [°], a part of `whole`."""
+        return self.whole * harmonic_share(self.installed, self.volts)
 
     @property
     def losses(self) -> list[float]:

@@ -40,15 +40,15 @@ def trust(now: PageState) -> dict[str, Any]:
     rows = Markup()
     found, current = now.latest(asked[0]) if asked else (None, True)
     if found is not None:
-        models = now.answers.get(_models_asked(now)[0].calls[0]) if current else None
+        models = now.answers.get(_model_questions(now)[0].calls[0]) if current else None
         rows = doubt_rows(found, now.units, models if isinstance(models, tuple) else ())
         rows = rows if current else readout.faded(rows)
     return {"trust.status": status_panel(state.solution, pinned=state.pinned), "trust.doubts": rows}
 
 
-def _models_asked(now: PageState) -> tuple[Questions, ...]:
+def _model_questions(now: PageState) -> tuple[Questions, ...]:
     return tuple(Questions(_URGENCY, (Call(alternative_models, work.about),), _STILL) for work in shown_doubt(now))
 
 
 DETAILS = Panel(details, lambda ui: ui.drawer == "details", works=shown_doubt)
-TRUST = Panel(trust, lambda ui: ui.drawer == "trust", _models_asked, shown_doubt)
+TRUST = Panel(trust, lambda ui: ui.drawer == "trust", _model_questions, shown_doubt)

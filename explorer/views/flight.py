@@ -14,7 +14,7 @@ from explorer.model.actuator_inputs import ActuatorState, HandSettings, schedule
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, change_kind, fuel_words, pair_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, parts_asked, parts_here, trims_here
+from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, compared_trims, parts_call, saving_parts
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
 from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
 from rotor.actuator.stopped import numbers_of
@@ -50,9 +50,7 @@ def view(now: PageState) -> dict[str, FlightPart | EarnsPart | None]:
         return {}
     wrong = one.outcome if isinstance(one.outcome, str) else ""
     verdict = None if wrong else one.verdict or now.memory.latest.get("verdict")
-    earns = (
-        _earns_here(now, wrong) if now.hand.here else earns_state(verdict, one.verdict is not None, now.units, wrong)
-    )
+    earns = _balance(now, wrong) if now.hand.here else earns_state(verdict, one.verdict is not None, now.units, wrong)
     return {"flight": _flight(now, one, wrong), "earns": earns}
 
 
@@ -82,7 +80,7 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     shown = None if problem else known or _last(now)
     tip = math.degrees(one.inputs.tip(one.installed))
     state, words = hand.state, ""
-    if now.of(trims_here) is not None and now.state is not None:
+    if now.of(compared_trims) is not None and now.state is not None:
         there = numbers_of(now.state.solution, one.design.twist)
         left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
         stalled = f"disk {number(100.0 * there.stalled_area, 1)} % stalled"
@@ -154,9 +152,9 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     )
 
 
-def _earns_here(now: PageState, problem: str) -> EarnsPart:
+def _balance(now: PageState, problem: str) -> EarnsPart:
     """The same in this flight; nothing is drawn until it is known."""
-    parts, hovers = now.of(parts_here), now.inputs.advance_ratio == 0.0
+    parts, hovers = now.of(saving_parts), now.inputs.advance_ratio == 0.0
     here = None if (one := actuated_blade(now)) is None else one.here
     how = (True, True) if one is None else (one.built, one.sourced)
     speed = 0.0 if now.sliders is None else now.inputs.advance_ratio * now.sliders.rotor.tip_speed
@@ -188,7 +186,7 @@ def _bars(
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
-    parts = now.of(parts_asked) if now.hand.here else None
+    parts = now.of(parts_call) if now.hand.here else None
     return (Questions(4, (parts,), 0.0),) if parts else ()
 
 

@@ -13,7 +13,7 @@ _OVERLAY_HINT = "The grey blade has the same elastic twist, so you see only the 
 
 
 def blade_inset(now: PageState) -> dict[str, Any]:
-    """At the azimuth of the reference blade."""
+    """The inset with the blade at the azimuth of the reference blade."""
     state = now.state
     if state is None:
         return {}

@@ -20,7 +20,7 @@ from explorer.text.line import (
     twist_pieces,
 )
 from explorer.text.readout import fineness, limit_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, doubt_here, drive_here, in_actuate
+from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, drive_power, flight_doubt, in_actuate
 from explorer.views.actuator import DRIVES
 from explorer.views.flight import STATES
 from explorer.views.page_state import PageState, Panel, PanelWork
@@ -36,7 +36,7 @@ _DRIVE = Slider("Voltage [%]", -100.0, 100.0, 1.0)
 
 def works(now: PageState) -> tuple[PanelWork, ...]:
     """How sure power and its change are."""
-    here = now.of(doubt_here) if in_actuate(now.ui) else None
+    here = now.of(flight_doubt) if in_actuate(now.ui) else None
     return (*shown_doubt(now), *(() if here is None else (here,)))
 
 
@@ -46,17 +46,17 @@ def line(now: PageState) -> LinePart:
     problem = units.in_sliders(now.problem, 0.0 if one is None else one.mass)
     pieces = flight_pieces(now.shown, units)
     pieces += twist_pieces(now.shown, now.preview or now.sliders) if one is None else _actuator(one)
-    said = tuple(piece.control.label for piece in pieces if piece.control is not None)
-    said += tuple(_BUILT if any(piece.text == AS_BUILT for piece in pieces) else ())
+    named = tuple(piece.control.label for piece in pieces if piece.control is not None)
+    named += tuple(_BUILT if any(piece.text == AS_BUILT for piece in pieces) else ())
     if problem or state is None:
         words = f" has no trim: {problem.removeprefix('Not trimmed: ').rstrip('.')}" if problem else " …"
         pieces.append(LinePiece(words, "problem"))
-        return LinePart(pieces, Status("problem", "", problem), said, problem, now.ui.held)
+        return LinePart(pieces, Status("problem", "", problem), named, problem, now.ui.held)
     doubts = [(task, *now.latest(task)) for task in shown_doubt(now)]
     band, known = (doubts[0][1], doubts[0][2]) if doubts else (None, True)
     pieces += power_pieces(state.solution, units, band, known)
-    pieces += _change_here(one) if one is not None else _change(now)
-    return LinePart(pieces, status(state, units), said, held=now.ui.held)
+    pieces += _flight_change(one) if one is not None else _change(now)
+    return LinePart(pieces, status(state, units), named, held=now.ui.held)
 
 
 def _actuator(one: ActuatedBlade) -> list[LinePiece]:
@@ -78,7 +78,7 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     return [*pieces, LinePiece("\u00a0%"), LinePiece(f" {noun.lower()}", WIDE), LinePiece("".join(waves))]
 
 
-def _change_here(one: ActuatedBlade) -> list[LinePiece]:
+def _flight_change(one: ActuatedBlade) -> list[LinePiece]:
     """With its mass and its drive, and the limits that are exceeded."""
     here, now, against = one.here, one.now, one.question.against
     if here is None:
@@ -87,7 +87,7 @@ def _change_here(one: ActuatedBlade) -> list[LinePiece]:
         return [LinePiece(": no change from the blade without it", "against")]
     than = "without it" if against == "same-blade" else f"with the {against_words(one, against)}"
     digit = 0.5 * 10.0 ** -fineness(now.state.solution.power, now.units) if now.state is not None else 0.5
-    note = ", drive included" if abs(now.units.power[0].of(drive_here(now) or 0.0)) >= digit else ""
+    note = ", drive included" if abs(now.units.power[0].of(drive_power(now) or 0.0)) >= digit else ""
     reach = one.installed.actuator.range_limits
     broken = () if one.verdict is None else one.verdict.broken
     over = over_pieces([limit_words(each.name) for each in broken if each.name not in reach])

@@ -149,12 +149,12 @@ class PanelWork:
 
     @property
     def key(self) -> Hashable:
-        """By which `PageState.answers` has the result."""
+        """Key of the result in `PageState.answers`."""
         return self.name, *self.about
 
 
-def in_one(compute: Callable[[], Any]) -> Callable[[Tell], Generator[None, None, Any]]:
-    """`run` of work that is one piece."""
+def as_one_step(compute: Callable[[], Any]) -> Callable[[Tell], Generator[None, None, Any]]:
+    """`PanelWork.run` of a computation that is done in one step."""
 
     def run(tell: Tell) -> Generator[None, None, Any]:
         yield

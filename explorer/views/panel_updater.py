@@ -26,7 +26,7 @@ _UNSENT = object()
 
 
 class PanelUpdater:
-    """One page's; safe from any thread. Presses run on that of the bridge or of the keyboard."""
+    """Updates the panels of one page; safe from any thread. Presses run on that of the bridge or of the keyboard."""
 
     def __init__(
         self,
@@ -136,9 +136,9 @@ class PanelUpdater:
             self._bridge.set(**changed)
         return effects
 
-    def owed(self) -> bool:
+    def is_waiting(self) -> bool:
         """Whether worker processes have still to answer."""
-        return any(queue.owes() for queues in self._queues for queue in list(queues.values()))
+        return any(queue.is_waiting() for queues in self._queues for queue in list(queues.values()))
 
     def rest(self, resting: bool) -> None:
         """Whether worker processes begin nothing more for the panels."""

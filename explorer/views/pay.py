@@ -18,7 +18,7 @@ from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.design_words import listed
 from explorer.text.readout import change_sizes, kilograms, limit_words, needs, needs_words
-from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, against_words, here_problem, in_actuate
+from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, against_words, in_actuate, no_verdict
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict, actuators
 from rotor.actuator.verdict import flight_text
@@ -97,7 +97,7 @@ def _stage(now: PageState) -> SupposePart | None:
         return None
     if one.line is None or one.over_flight is None:
         none = "" if one.mass else f"{one.name} adds no mass, so no break-even mass applies."
-        return SupposePart(none or here_problem(now) or "Computing break-even…")
+        return SupposePart(none or no_verdict(now) or "Computing break-even…")
     units, line, own = now.units, one.line, _put(math.degrees(one.range), one.mass)
     degrees, mass = now.hand.place or own
     twist, built = math.radians(degrees), True

@@ -31,8 +31,8 @@ def power_card(now: PageState) -> dict[str, Any]:
     same = solution.design == reference.design or not reference.converged
     band = now.answers.get(shown_doubt(now)[0].key)
     words = "" if same else why(reference, solution, now.units, band)
-    held = coverage_words() if has_power(solution.design) else ""
-    return {"power": replace(_numbers(state, now.units, band), why=words, held=held)}
+    coverage = coverage_words() if has_power(solution.design) else ""
+    return {"power": replace(_numbers(state, now.units, band), why=words, coverage=coverage)}
 
 
 def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart:
@@ -80,7 +80,7 @@ def status(state: SessionState, units: Units) -> Status:
     return Status("care", words, title)
 
 
-def held_doubt(now: PageState) -> tuple[PanelWork, ...]:
+def station_doubt(now: PageState) -> tuple[PanelWork, ...]:
     """How sure the change since the blade was taken is."""
     before, state = now.station and now.station.before, now.state
     if before is None or state is None or before.design == state.solution.design:
@@ -88,12 +88,12 @@ def held_doubt(now: PageState) -> tuple[PanelWork, ...]:
     return (doubt_work("held", state.solution, before, now.analyses),)
 
 
-def held_power(now: PageState) -> dict[str, Any]:
+def station_power(now: PageState) -> dict[str, Any]:
     """Power and its least beside the blade, while a station of it is held; with bands while it rests."""
     if now.state is None or now.station is None:
         return {"hand": None}
     power, change, unit = now.state.solution.power, now.change or 0.0, now.units.power[0]
-    digits, band = fineness(power, now.units), next((now.answers.get(work.key) for work in held_doubt(now)), None)
+    digits, band = fineness(power, now.units), next((now.answers.get(work.key) for work in station_doubt(now)), None)
     within = None if band is None else band.change_band
     around = "" if band is None else f" ± {number(unit.of(band.band), max(digits, decimals(unit.of(band.band))))}"
     words = unit.text(change, digits, sign=True)
@@ -113,4 +113,4 @@ def held_power(now: PageState) -> dict[str, Any]:
 
 
 POWER = Panel(power_card, works=shown_doubt)
-HAND = Panel(held_power, works=held_doubt)
+HAND = Panel(station_power, works=station_doubt)

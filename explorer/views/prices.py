@@ -12,7 +12,7 @@ from rotor.study.series import WaterfallStep
 from rotor.trim.stall_edge import stall_edges
 
 
-def edges_asked(now: PageState) -> tuple[PanelWork, ...]:
+def stall_edge_work(now: PageState) -> tuple[PanelWork, ...]:
     """How far the edge of stall is: some twenty trims; none while sections do not stall."""
     if now.state is None or now.problem or not now.state.solution.design.models.stall:
         return ()
@@ -36,7 +36,7 @@ def prices(now: PageState) -> dict[str, Any]:
         name: RegionPrice((_cost(steps[name], now.units),) if name in steps else waits, stale=not current)
         for name in _NAMES
     }
-    stall, asked = shown["stall"], edges_asked(now)
+    stall, asked = shown["stall"], stall_edge_work(now)
     if asked:
         known, of_now = now.latest(asked[0])
         stalls, mu, edges = known or (False, 0.0, {})
@@ -74,4 +74,4 @@ def switch_stall(now: PageState, value: object) -> tuple[Effect, ...]:
     return (MoveSliders(replace(now.inputs, stall=not now.inputs.stall), by_hand=False),)
 
 
-PRICES = Panel(prices, lambda ui: ui.disk, works=edges_asked, presses={"unstall": switch_stall})
+PRICES = Panel(prices, lambda ui: ui.disk, works=stall_edge_work, presses={"unstall": switch_stall})

@@ -80,14 +80,14 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
         chart = power_change_chart(curve, mu, change, name, units, held, band and band.change_band)
     if not curve.current or state.inputs.stand is not None:
         return "power", chart, kind, None
-    if isinstance(bands := now.answers.get(bands_asked(now)), tuple):
+    if isinstance(bands := now.answers.get(bands_call(now)), tuple):
         chart = with_band(chart, bands, units)
     chart, fastest = with_speeds(chart, curve, design)
     known = not failed and math.isfinite(fastest)
     return "power", chart, kind, MarkedSpeeds(mu, math.floor(200.0 * fastest) / 200.0) if known else None
 
 
-def bands_asked(now: PageState) -> Call | None:
+def bands_call(now: PageState) -> Call | None:
     if now.state is None or now.problem or now.state.inputs.stand is not None:
         return None
     design, reference = now.state.solution.design, now.state.reference
@@ -96,7 +96,7 @@ def bands_asked(now: PageState) -> Call | None:
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
-    call = bands_asked(now)
+    call = bands_call(now)
     return (Questions(_URGENCY, () if call is None else (call,), _DELAY_S),)
 
 
@@ -114,7 +114,7 @@ def _axis(now: PageState, name: str) -> str:
     return f"{name}-change" if name == "power" and changed else name
 
 
-def trims_asked(now: PageState) -> tuple[PanelWork, ...]:
+def measured_trims(now: PageState) -> tuple[PanelWork, ...]:
     """Our trims at what was measured: on a test stand, or in flight, there only beside the power itself."""
     if now.state is None:
         return ()
@@ -133,5 +133,5 @@ def trims_asked(now: PageState) -> tuple[PanelWork, ...]:
 
 
 STRIP = Panel(
-    strip, asks=asks, works=lambda now: (*trims_asked(now), *shown_doubt(now)), turns=True, remember=remember_ranges
+    strip, asks=asks, works=lambda now: (*measured_trims(now), *shown_doubt(now)), turns=True, remember=remember_ranges
 )

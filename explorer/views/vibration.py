@@ -13,7 +13,7 @@ from explorer.model.units import number
 from explorer.parts.stage import SceneLabel, VibrationPart
 from explorer.picture.picture import BENDING_SHOWN
 from explorer.text.readout import index_unit
-from explorer.views.page_state import PageState, Panel, PanelWork, Tell, in_one
+from explorer.views.page_state import PageState, Panel, PanelWork, Tell, as_one_step
 from rotor import Design, Solution, hub_loads, solve
 from rotor.aero.bending import can_bend
 from rotor.aero.inflow import INFLOW_MODELS
@@ -31,7 +31,7 @@ def vibration(now: PageState) -> dict[str, Any]:
     return {
         "vibration": _row(now, state) if bends else None,
         "hub_labels": _how_bent(state.solution) if bends and not now.problem else [],
-        "switch.bending": _beside_switch(now, state),
+        "switch.bending": _bending_note(now, state),
     }
 
 
@@ -45,7 +45,7 @@ def works(now: PageState) -> tuple[PanelWork, ...]:
     return (
         _loads_work(now, solution, True),
         *((_loads_work(now, reference, True),) if compared else ()),
-        PanelWork("rigid", (solution.design,), in_one(lambda: _rigid_power(solution))),
+        PanelWork("rigid", (solution.design,), as_one_step(lambda: _rigid_power(solution))),
     )
 
 
@@ -78,7 +78,7 @@ def _rigid_power(solution: Solution) -> float:
     return rigid.power.total if rigid.converged else math.nan
 
 
-def _beside_switch(now: PageState, state: SessionState) -> str:
+def _bending_note(now: PageState, state: SessionState) -> str:
     """What bending costs, or why this blade does not bend."""
     design, words = state.solution.design, ""
     if not can_bend(design.rotor):

@@ -130,7 +130,7 @@ _CLIMB = len(SWITCHES) + 1
 """Steps from everything off to everything on; those with each switch off alone follow."""
 
 
-def steps_asked(now: PageState) -> tuple[PanelWork, ...]:
+def waterfall_work(now: PageState) -> tuple[PanelWork, ...]:
     """All steps of the design with everything on: some twenty trims."""
     if now.state is None:
         return ()
@@ -175,13 +175,13 @@ def switched_alone(now: PageState) -> tuple[dict[str, WaterfallStep], bool]:
 
 def _known(now: PageState) -> tuple[tuple[WaterfallStep, ...], bool]:
     """The last steps known, and whether they are of the design on the page."""
-    asked = steps_asked(now)
+    asked = waterfall_work(now)
     steps, current = now.latest(asked[0]) if asked else (None, False)
     return steps or (), current
 
 
-WATERFALL = Panel(waterfall, lambda ui: ui.drawer == "details", works=steps_asked)
-COSTS = Panel(costs, lambda ui: bool(ui.drawer) or not ui.lifted, works=steps_asked)
+WATERFALL = Panel(waterfall, lambda ui: ui.drawer == "details", works=waterfall_work)
+COSTS = Panel(costs, lambda ui: bool(ui.drawer) or not ui.lifted, works=waterfall_work)
 
 
 def cost_words(step: WaterfallStep, units: Units) -> str:

@@ -1,7 +1,7 @@
 """What the panels of power want computed once the page rests."""
 
 from explorer.model.session_state import Analyses
-from explorer.views.page_state import PageState, PanelWork, in_one
+from explorer.views.page_state import PageState, PanelWork, as_one_step
 from rotor import Design, Solution, doubt
 
 
@@ -12,7 +12,7 @@ def has_power(design: Design) -> bool:
 
 def doubt_work(name: str, solution: Solution, reference: Solution | None, analyses: Analyses) -> PanelWork:
     """How sure power is, and its change from the reference: a `Doubt` about the two designs."""
-    run = in_one(lambda: doubt(analyses.of(solution), reference and analyses.of(reference)))
+    run = as_one_step(lambda: doubt(analyses.of(solution), reference and analyses.of(reference)))
     return PanelWork(name, (solution.design, reference and reference.design), run, soon=True)
 
 

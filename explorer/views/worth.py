@@ -12,7 +12,7 @@ from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivit
 from explorer.model.units import SI, Units, number
 from explorer.parts.results import SliderSaving
 from explorer.text.readout import banded, fineness
-from explorer.views.page_state import PageState, Panel, PanelWork, in_one
+from explorer.views.page_state import PageState, Panel, PanelWork, as_one_step
 from explorer.views.work import has_power, shown_doubt
 from rotor import doubt, solve
 from rotor.trim.analysis import Analysis
@@ -26,7 +26,7 @@ _NOTHING = 1e-6
 """[W]: a handle that acts changes more by a step, at an optimum too, where its slope is zero to the digits shown."""
 
 
-def slopes_asked(now: PageState) -> tuple[PanelWork, ...]:
+def slopes_work(now: PageState) -> tuple[PanelWork, ...]:
     """∂P/∂θ(r), and what a step of each slider of the flight changes, at two trims each; none without power."""
     state, analyses = now.state, now.analyses
     if state is None or now.problem or not has_power(state.solution.design):
@@ -34,7 +34,7 @@ def slopes_asked(now: PageState) -> tuple[PanelWork, ...]:
     solution = state.solution
 
     about = (solution.design,)
-    of_twist = PanelWork("slopes", about, in_one(lambda: analyses.of(solution).gradient), soon=True)
+    of_twist = PanelWork("slopes", about, as_one_step(lambda: analyses.of(solution).gradient), soon=True)
     works = of_twist, PanelWork("flight-slopes", about, lambda tell: flight_sensitivities(solution))
     of_steps = PanelWork("twist-steps", about, lambda tell: step_bands(state.inputs, analyses.of(solution)))
     return (*works, of_steps) if state.inputs.design() == solution.design else works
@@ -56,7 +56,7 @@ def step_bands(inputs: Inputs, here: Analysis) -> Generator[None, None, Mapping[
 
 def twist_slopes(now: PageState) -> dict[str, float]:
     """Change of power for a unit of each twist slider [W], of the design shown; empty until it is known."""
-    asked, state = slopes_asked(now), now.state
+    asked, state = slopes_work(now), now.state
     gradient = now.answers.get(asked[0].key) if asked else None
     if state is None or gradient is None or state.solution.design != state.inputs.design():
         return {}
@@ -65,7 +65,7 @@ def twist_slopes(now: PageState) -> dict[str, float]:
 
 def worth(now: PageState) -> dict[str, Any]:
     """Until the page rests, what was known of the design before stands there, marked as stale."""
-    state, asked, rows = now.state, slopes_asked(now), dict[str, SliderSaving]()
+    state, asked, rows = now.state, slopes_work(now), dict[str, SliderSaving]()
     if state is None or not asked:
         return {"worth": rows}
     (gradient, of_now), (flight, flight_of_now), *rest = map(now.latest, asked)
@@ -96,9 +96,9 @@ def worth_row(
     title = SLIDERS[one.name].label.partition(" [")[0]
     step = slider(one.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
-    said = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=digits, sign=True)
+    words = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=digits, sign=True)
     less = f"less than {number(0.5 * 10.0**-digits, digits + 1)} {units.power[0].symbol}"
-    sentence = f"{title}: {step} more changes power by {said if way else less}."
+    sentence = f"{title}: {step} more changes power by {words if way else less}."
     if way and (band is None or sureness(change, band) == "unclear"):
         way, value = "", f"{value} {one.unit_text(units)}"
     elif way:
@@ -108,4 +108,4 @@ def worth_row(
     return SliderSaving(way, value, one.unit_text(units), part, sentence, stale)
 
 
-WORTH = Panel(worth, works=lambda now: slopes_asked(now)[: 1 if now.ui.lifted else None])
+WORTH = Panel(worth, works=lambda now: slopes_work(now)[: 1 if now.ui.lifted else None])

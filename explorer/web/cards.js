@@ -22,8 +22,8 @@
         title="Power and trim in detail">
         <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div>
       <button class="rxf-held" data-do="drawer" data-value="trust" data-explorer="held"
-        title="Rotors that did not set the size of ±. Click to see how far to trust it" ${power.held ? '' : 'hidden'}>
-        ${text(power.held)}</button></div>
+        title="Rotors that did not set the size of ±. Click to see how far to trust it" ${power.coverage ? '' : 'hidden'}>
+        ${text(power.coverage)}</button></div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
     const why = card.querySelector('.rxf-why');
@@ -56,11 +56,11 @@
     // On a low telephone the line alone names the limits; their values are in the rail.
     const listed = (name, list) => list.length ? `<b>${name}:</b>
       ${list.map(words => `<span>${text(words)}</span>`).join(' ')}` : '';
-    const limits = one.over.length + one.asked.length ? `<p class="rxf-over rxf-num" data-explorer="over">
+    const limits = one.over.length + one.required.length ? `<p class="rxf-over rxf-num" data-explorer="over">
       <span data-over>${listed('Over its limits', one.over)}</span>
       ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
         feasible: ${text(one.feasible)}</button>`}
-      <span class="rxf-dim">${listed('The best twist needs', one.asked)}</span></p>` : '';
+      <span class="rxf-dim">${listed('The best twist needs', one.required)}</span></p>` : '';
     write(card, `<header data-explorer="assessed"><div role="group" aria-label="Compared with">
         <span class="rxf-dim">vs.</span>${blades}</div></header>
       ${limits}<div class="rxf-columns">

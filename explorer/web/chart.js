@@ -121,13 +121,13 @@ const Charts = (() => {
       return path ? `<path d="${path}" fill="${colour}" opacity=".17" data-band/>` : '';
     },
     points(series, {X, Y, low = undefined, high = undefined, settle}) {
-      const {x, y, colour, mark = 'dot', size = 4, beside, action} = series, ring = mark === 'ring';
+      const {x, y, colour, mark = 'dot', size = 4, name_place: side, action} = series, ring = mark === 'ring';
       const {words = [], press = [], names = [], faint = [], scatter = []} = series;
       return x.map((at, k) => {
         if (y[k] === null) return '';
         const height = low === undefined || ring ? Y(y[k]) : clamp(Y(y[k]), low, high);
         const cx = +X(at).toFixed(1), cy = +height.toFixed(1);
-        const stands = names[k] && settle(names[k], cx, cy, size, beside);
+        const stands = names[k] && settle(names[k], cx, cy, size, side);
         const name = stands ? `<text ${stands} style="fill:${colour}" data-name>${text(names[k])}</text>` : '';
         const style = ring ? `fill="var(--rx-paper)" stroke="${colour}" stroke-width="${size > 3 ? 1.6 : 1.2}"`
           : `fill="${colour}" ${size > 3 ? 'stroke="var(--rx-paper)" stroke-width="2"' : ''}`;

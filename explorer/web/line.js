@@ -40,7 +40,7 @@
   // A number that stands here need not stand in the rail too.
   const fields = '[data-dock-region=right] input[aria-label]:not([type=hidden])';
   function markSaid() {
-    const said = RX.shown('line')?.said ?? [];
+    const said = RX.shown('line')?.named_sliders ?? [];
     for (const field of document.querySelectorAll(fields))
       field.toggleAttribute('data-said', said.includes((field.ariaLabel ?? '').split(' [')[0]));
   }

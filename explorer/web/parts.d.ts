@@ -110,7 +110,7 @@ interface RxAssessedPart {
   vibration: string;
   problem: string;
   over: string[];
-  asked: string[];
+  required: string[];
   feasible: string;
   against: string;
   baselines: [string, string][];
@@ -212,7 +212,7 @@ interface RxDrawnPoints {
   press?: string[];
   names?: string[];
   faint?: boolean[];
-  beside?: 'above' | 'below' | null;
+  name_place?: 'above' | 'below' | null;
   scatter?: (number | null)[];
 }
 
@@ -369,7 +369,7 @@ interface RxStepAnswer {
 interface RxLinePart {
   pieces: RxLinePiece[];
   status: RxStatus;
-  said: string[];
+  named_sliders: string[];
   problem: string;
   held: boolean;
 }
@@ -456,7 +456,7 @@ interface RxPowerPart {
   ideal: number | null;
   ideal_title: string;
   why: string;
-  held: string;
+  coverage: string;
 }
 
 interface RxPowerShare {

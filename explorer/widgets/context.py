@@ -36,7 +36,7 @@ class SharedServices:
 
 
 class TabContext:
-    """One page's: its frame, the sliders of Explore, and what its parts share. Safe from any thread."""
+    """The context of one page: its frame, the sliders of Explore, and what its parts share. Safe from any thread."""
 
     def __init__(
         self, client: viser.ClientHandle, start: PageState, shared: SharedServices, callbacks: SessionCallbacks
@@ -56,7 +56,7 @@ class TabContext:
         """Called once the panels have followed an update; None: the inputs have no solution."""
         self.resting: list[Callable[[bool], None]] = []
         """Called with whether the page is hidden: then only what is under way is computed for it, and searches."""
-        self.owing: list[Callable[[], bool]] = []
+        self.waiting: list[Callable[[], bool]] = []
         """Whether workers have still to answer what parts of the page asked."""
         self.leaving: list[Callable[[], None]] = []
         """Called once the browser has left: end threads and jobs."""

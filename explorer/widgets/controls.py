@@ -186,11 +186,11 @@ class DesignControls:
     def show_costs(self, costs: Mapping[str, str]) -> None:
         """What each switch of the physics costs, in words, by its name."""
         for name in SWITCHES:
-            self._costs[name].content = _beside("cost", costs.get(name, ""))
+            self._costs[name].content = _switch_note("cost", costs.get(name, ""))
 
     def show_bending(self, words: str) -> None:
         """What bending costs, or why there is none, beside its switch."""
-        self._costs["bending"].content = _beside("bending", words)
+        self._costs["bending"].content = _switch_note("bending", words)
 
     def _sliders(self, names: Iterable[str], seen: Iterable[str]) -> None:
         """With a row below each for the arrow of its power sensitivity."""
@@ -231,7 +231,7 @@ class DesignControls:
             self.stand.set_measured(condition)
 
 
-def _beside(part: str, words: str) -> Markup:
+def _switch_note(part: str, words: str) -> Markup:
     """Words beside a switch; nothing without."""
     return tag("div.rxp-cost", words, data_explorer=part) if words else Markup()
 

@@ -36,7 +36,7 @@ class UploadResult:
 
 @dataclass
 class UploadedFiles:
-    """One session's files by name. The key of the rotor file that names a file says what it is."""
+    """The files of a session by name. The key of the rotor file that names a file tells its kind."""
 
     texts: dict[str, str] = field(default_factory=dict[str, str])
     rotor: str | None = None

@@ -25,7 +25,7 @@ class PanelChart:
 
     @property
     def y_range(self) -> Range | None:
-        """To be held as long as it serves; None without a chart."""
+        """The y axis, kept while the data fit it; None without a chart."""
         return None if self._chart is None else self._chart.y.range
 
 

@@ -49,7 +49,7 @@ _PICTURES = tuple(f"{shape}{ground}" for shape in SHAPES for ground in ("", ", t
 
 
 class ExportPanel:
-    """One session's. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
+    """The exports of a session. Each file is made on a thread of its own, one at a time; what fails is a sentence."""
 
     def __init__(
         self,

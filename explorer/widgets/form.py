@@ -18,12 +18,12 @@ from explorer.model.stand import (
     TRIM_TITLES,
     MeasuredCondition,
     StandInputs,
+    equivalent_stand,
     load_of,
     measured_conditions,
     opening,
-    stand_like,
 )
-from explorer.model.units import SI, Units, meant, shown
+from explorer.model.units import SI, Units, shown, slider_input
 from explorer.text.glossary import hint
 from rotor import FlightCondition
 from rotor.design import Flapping
@@ -111,7 +111,7 @@ class WidgetForm:
             at, digits = shown(self._rows[name], finer, self._units), self._handles[name].precision
             if round(at, digits) == round(place, digits):
                 return finer
-        return meant(self._rows[name], place, self._units) if name in self._rows else place
+        return slider_input(self._rows[name], place, self._units) if name in self._rows else place
 
     def values(self) -> dict[str, Any]:
         return {name: self[name] for name in self._handles}
@@ -310,7 +310,7 @@ class StandControls:
             self._change(None)
             return
         solution = self._solution()
-        begin = self.stand or (StandInputs() if solution is None else stand_like(solution))
+        begin = self.stand or (StandInputs() if solution is None else equivalent_stand(solution))
         collective = None if solution is None else load_of(solution, "collective_deg")
         self._change(begin.with_trim(next(known for known in STAND_TRIMS if known == trim), collective))
 

@@ -62,7 +62,7 @@ def _spark(solution: Solution) -> Markup:
 
 
 class HistoryPanel:
-    """One session's. Buttons act at once, on any thread; steps are taken on the session's worker."""
+    """The history of a session. Buttons act at once, on any thread; steps are taken on the session's worker."""
 
     def __init__(
         self,

@@ -32,7 +32,7 @@ def by_hand(handle: Any, action: Callable[[Any], None]) -> None:
 
 
 class Layout:
-    """One session's. What is not shown is not in the page, so that it costs the browser nothing."""
+    """The layout of a session. Parts that are not shown are not in the page, so they cost the browser nothing."""
 
     def __init__(self, gui: viser.GuiApi, bridge: Bridge) -> None:
         self._gui = gui

@@ -12,7 +12,7 @@ import viser
 
 from explorer import colours
 from explorer.charts.probe_drawing import outline, probe_panel
-from explorer.charts.probe_measured import BesideMeasured, beside_measured, measured_panel
+from explorer.charts.probe_measured import AirloadComparison, airload_comparison, measured_panel
 from explorer.hosting.browser import Bridge
 from explorer.model.session_state import SessionState
 from explorer.model.units import number
@@ -192,7 +192,7 @@ class ProbePanel:
         self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
         self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
         self._panel = gui.add_html("")
-        self._beside: tuple[Solution, float, BesideMeasured | None] | None = None
+        self._comparison: tuple[Solution, float, AirloadComparison | None] | None = None
         """A solution and r/R, and what was measured there."""
         self._follow = gui.add_checkbox("Follow the reference blade", True, hint=hint("probe_follow"))
         self._shown = gui.add_checkbox("Show on the disk", False, hint=hint("probe_shown"))
@@ -251,9 +251,9 @@ class ProbePanel:
 
     def _measured(self, solution: Solution, here: Probe) -> Markup:
         """Airloads over the azimuth as HTML; empty where none were measured on this rotor."""
-        if self._beside is None or self._beside[:2] != (solution, here.r):
-            self._beside = solution, here.r, beside_measured(solution, here.r)
-        beside = self._beside[2]
+        if self._comparison is None or self._comparison[:2] != (solution, here.r):
+            self._comparison = solution, here.r, airload_comparison(solution, here.r)
+        beside = self._comparison[2]
         return Markup() if beside is None else measured_panel(beside, here.psi)
 
     def _fade(self) -> None:

@@ -186,7 +186,7 @@ class PoolAnswers:
         with self._lock:
             return {**self._failures}
 
-    def owes(self) -> bool:
+    def is_waiting(self) -> bool:
         """Whether an answer is still to come or to be told; takes no lock that is held while others are told."""
         begins = not self._resting and self._next() is not None
         return not self._stopped and (begins or self._job is not None)

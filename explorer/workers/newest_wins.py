@@ -193,11 +193,11 @@ class NewestWins:
             self._answered = True
             self._pool.change.notify_all()
 
-    def until_answered(self, wholly: bool, owed: Callable[[], bool] = lambda: False) -> None:
+    def until_answered(self, wholly: bool, waiting: Callable[[], bool] = lambda: False) -> None:
         """Wait until all wakes that came before this call are answered, `wholly` also until nothing is left to do; or
         until the page has gone.
 
-        `owed`: whether an answer will still wake it. While `change` is held none can, so neither it nor its wake is
+        `waiting`: whether an answer will still wake it. While `change` is held none can, so neither it nor its wake is
         missed.
         """
 
@@ -205,7 +205,7 @@ class NewestWins:
             if self._stopped or self._wanted.is_set():
                 return self._stopped
             at_rest = self._state == "idle" and self._steps is None
-            return (at_rest and not owed()) if wholly else (at_rest or self._answered)
+            return (at_rest and not waiting()) if wholly else (at_rest or self._answered)
 
         with self._pool.change:
             while not self._pool.change.wait_for(answered, _OWED_S):
@@ -222,7 +222,7 @@ class NewestWins:
         return begins
 
     def run(self) -> None:
-        """One update, or one step of what can wait."""
+        """Run one update, or one step of deferred work."""
         try:
             if self._wanted.is_set():
                 # Cleared before the update reads anything, so that a change during the update wakes it again.

@@ -18,7 +18,7 @@ from rotor.actuator.catalogue import (
     programmes,
 )
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
-from rotor.actuator.harmonic import EffectInFlight, effect, powers, steady_room, tip_amplitude
+from rotor.actuator.harmonic import EffectInFlight, effect, harmonic_share, powers, tip_amplitude
 from rotor.actuator.installation import InstalledActuator, install, with_actuator, with_actuator_mass
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, OtherStroke, break_even, other_stroke, pay_sentence
@@ -29,8 +29,8 @@ from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details
 __all__ = (
     "Actuator", "ActuatorFlight", "BreakEven", "ConditionPair", "EffectInFlight", "Engines", "ExtensionTwist",
     "FlightLeg", "HostBlade", "InstalledActuator", "OtherStroke", "PiezoPly", "Placement", "Programme", "TorqueTube",
-    "Verdict", "actuators", "break_even", "default_placement", "effect", "engines_of", "failure",
-    "find_actuator", "fly", "install", "judge", "other_stroke", "pay_sentence", "powers", "programmes",
-    "standard_flight", "steady_room", "tip_amplitude", "try_actuator", "verdict_details", "verdict_sentence",
-    "with_actuator", "with_actuator_mass",
+    "Verdict", "actuators", "break_even", "default_placement", "effect", "engines_of", "failure", "find_actuator",
+    "fly", "harmonic_share", "install", "judge", "other_stroke", "pay_sentence", "powers", "programmes",
+    "standard_flight", "tip_amplitude", "try_actuator", "verdict_details", "verdict_sentence", "with_actuator",
+    "with_actuator_mass",
 )  # fmt: skip

@@ -24,7 +24,7 @@ KINDS: dict[str, type[Actuator]] = {"ply": PiezoPly, "tube": TorqueTube, "extens
 K = TypeVar("K", bound=Actuator)
 
 
-def of_kind(kind: type[K]) -> dict[str, K]:
+def actuators_of_kind(kind: type[K]) -> dict[str, K]:
     """All actuators of a kind by id."""
     table = next(name for name, known in KINDS.items() if known is kind)
     rows = map(in_si, toml_asset("actuators.toml")[table])
@@ -42,11 +42,11 @@ def _shared(row: dict[str, Any]) -> dict[str, Any]:
 @cache
 def actuators() -> dict[str, Actuator]:
     """All actuators by id, in the order of the kinds."""
-    return {id: actuator for kind in KINDS.values() for id, actuator in of_kind(kind).items()}
+    return {id: actuator for kind in KINDS.values() for id, actuator in actuators_of_kind(kind).items()}
 
 
 def find_actuator(id: str) -> Actuator:
-    """One actuator; ValueError names the known ones."""
+    """The actuator with this id; ValueError lists the known ids for any other."""
     check_known("actuator", id, actuators())
     return actuators()[id]
 
@@ -87,7 +87,7 @@ class Engines:
 
 
 def engines_of(aircraft: Aircraft) -> Engines | None:
-    """The engines of a shipped aircraft; None without a source for their fuel flow."""
+    """The engines of a shipped aircraft; None if their fuel flow has no source."""
     row = toml_asset("engines.toml").get(aircraft.key)
     if row is None:
         return None

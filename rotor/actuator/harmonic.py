@@ -31,7 +31,7 @@ def tip_amplitude(installed: InstalledActuator) -> float:
     return abs(0.5 * float(installed.rest_shapes[:, -1].sum()))
 
 
-def steady_room(installed: InstalledActuator, volts: Sequence[float]) -> float:
+def harmonic_share(installed: InstalledActuator, volts: Sequence[float]) -> float:
     """Share of half the voltage range, 0…1, that steady voltages leave for n/rev drive; 1 without steady voltages."""
     if not installed.actuator.follows_azimuth:
         return 0.0

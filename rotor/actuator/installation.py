@@ -157,7 +157,7 @@ def with_actuator(design: Design, actuator: str) -> Design:
 
 @dataclass(frozen=True)
 class ActuatorSpec:
-    """What the text of an actuator says."""
+    """An actuator and its settings, as `read_actuator` reads them from text."""
 
     id: str
     placement: Placement
@@ -201,7 +201,7 @@ def _carried(installed: InstalledActuator, shares: Sequence[float], crossed: boo
     """What a design says of the actuator on it."""
     place, plain, host, added = installed.placement, default_placement(), installed.host, installed.added
     drives = [100.0 * share for share in shares]
-    said: dict[str, Sequence[float]] = {
+    settings: dict[str, Sequence[float]] = {
         "plies": () if place.plies == plain.plies else (place.plies,),
         "span": () if place.span == plain.span else place.span,
         "chord": () if place.chord == plain.chord else place.chord,
@@ -210,7 +210,7 @@ def _carried(installed: InstalledActuator, shares: Sequence[float], crossed: boo
         "drive": drives[:1] if len(set(drives)) == 1 and drives[0] else drives if any(drives) else (),
         "crossed": (1.0,) if crossed else (),
     }
-    words = [f"{key}={':'.join(f'{value:.10g}' for value in values)}" for key, values in said.items() if values]
+    words = [f"{key}={':'.join(f'{value:.10g}' for value in values)}" for key, values in settings.items() if values]
     return Carried(
         name=name,
         spec=",".join((installed.actuator.id, *words)),

@@ -76,12 +76,12 @@ class MassBreakdown:
 
     @property
     def blade(self) -> float:
-        """Added to one blade [kg]."""
+        """Mass added to one blade [kg]."""
         return self.actuator + self.wiring + self.balance
 
     @property
     def aircraft(self) -> float:
-        """Added to the aircraft, all blades included [kg]."""
+        """Mass added to the aircraft, including all blades [kg]."""
         return self.blades * self.blade + self.electronics
 
 
@@ -101,7 +101,7 @@ class Drive:
 
 @dataclass(frozen=True)
 class Limit:
-    """One constraint: value, bound, and whether it is met."""
+    """One constraint: its value, its bound and whether it is met."""
 
     name: str
     """Short and stable, for scripts."""
@@ -118,7 +118,7 @@ Swings = tuple[float, ...]
 
 @dataclass(frozen=True, kw_only=True)
 class Actuator(ABC):
-    """One actuator of a kind."""
+    """An actuator with its data; each kind of actuator is a subclass."""
 
     id: str
     name: str
@@ -150,25 +150,25 @@ class Actuator(ABC):
     @property
     @abstractmethod
     def mode(self) -> str:
-        """What drives it, in a few words."""
+        """The means of actuation in a few words, for example `d33 fibres`."""
 
     @property
     def properties(self) -> dict[str, str]:
-        """Its columns of table 5.1, beside those of all kinds."""
+        """The columns of table 5.1 that only this kind has, by heading."""
         return {}
 
     @property
     def caveats(self) -> tuple[str, ...]:
-        """One sentence each."""
+        """Caveats of the actuator's data, one sentence each."""
         return self.provenance.warnings(self.id)
 
     @property
     def on_skin(self) -> bool:
-        """Whether it lies on the skins; else in the spar."""
+        """Whether the actuator lies on the skins; otherwise it is in the spar."""
         return "chord" in self.settings
 
     def count(self, placement: Placement) -> str:
-        """How many of it there are, as text."""
+        """Number of actuators in words, for example `2 plies`."""
         return f"{placement.plies} {self.noun[placement.plies > 1]}"
 
     def depth(self, placement: Placement) -> float:
@@ -179,7 +179,7 @@ class Actuator(ABC):
 
     @property
     def drive_range(self) -> tuple[float, float]:
-        """Least and largest drive, in its unit; the least is zero where it turns the tip one way only."""
+        """Lowest and highest drive in `drive_unit`; the lowest is zero if it twists the tip one way only."""
         return 0.0, 100.0
 
     @property
@@ -203,7 +203,7 @@ class Actuator(ABC):
 
     @property
     def retrofit_swings(self) -> tuple[float, float]:
-        """Swings of one that does not change the blade's twist while it rests."""
+        """Range of swings of a retrofit, which leaves the twist of the blade unchanged at zero drive."""
         low, high = (drive / self.drive_swing for drive in self.drive_range)
         return low, high
 
@@ -214,7 +214,7 @@ class Actuator(ABC):
     # On a blade
 
     def masses(self, placement: Placement, blades: int, skin_area: float, length: float) -> MassBreakdown:
-        """`skin_area` [m²]: area of one layer on one blade, both skins; `length` [m]: of all segments."""
+        """Masses for a `skin_area` [m²] of one layer on both skins of a blade, and a `length` [m] of all segments."""
         return MassBreakdown(blades)
 
     def section(self, spec: SectionSpec, placement: Placement) -> tuple[float, float]:
@@ -230,7 +230,7 @@ class Actuator(ABC):
         return moments[:, None] * units
 
     def drive(self, installed: "InstalledActuator", swings: Swings) -> Drive:
-        """Holding, and slewing by each segment's swing."""
+        """Power to hold the twist, and to slew by the swing of each segment."""
         return Drive()
 
     def harmonic_loss(self, installed: "InstalledActuator", per_rev: float, amplitude: float) -> float:
@@ -238,7 +238,7 @@ class Actuator(ABC):
         return 0.0
 
     def limits(self, installed: "InstalledActuator", swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
-        """Constraints of this kind, beside those of all. `swings`: required, may exceed 1."""
+        """Limits that only this kind has, for the required `swings`, which may exceed 1."""
         return ()
 
 

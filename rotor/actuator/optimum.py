@@ -57,7 +57,7 @@ class ConditionPair:
 
     @property
     def shares(self) -> tuple[float, float]:
-        """Share of time at each condition."""
+        """Shares of time at the two conditions, which add up to 1."""
         return 1.0 - self.share, self.share
 
     def mean(self, values: Iterable[float]) -> float:
@@ -299,7 +299,7 @@ class Baseline:
 
     @property
     def divisions(self) -> tuple[float, ...]:
-        """r/R where the concept's segments meet."""
+        """Stations r/R at which the segments of the concept meet."""
         return divisions_of(self.fixed_twist, len(self.fixed.values))
 
     def change(self, r: Array) -> Array:

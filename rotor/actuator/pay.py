@@ -237,7 +237,7 @@ class OtherStroke:
         return max(0.0, self.net(twist, 0.0) / self.per_kg)
 
     def twist_for(self, mass: float) -> float | None:
-        """Smallest range of twist that pays for a mass on all blades [kg]; None where none does."""
+        """Smallest range of twist [rad] that pays for a mass on all blades [kg]; None if none does."""
         cost = self.per_kg * mass
         return float(np.interp(cost, self.saved, self.twists)) if cost <= self.saved[-1] else None
 

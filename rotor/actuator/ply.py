@@ -111,7 +111,7 @@ class PiezoPly(Actuator):
 
     @property
     def voltage_swing(self) -> float:
-        """Peak to peak [V]."""
+        """Peak-to-peak voltage over the whole range [V]."""
         return self.voltage_range[1] - self.voltage_range[0]
 
     @property
@@ -123,7 +123,7 @@ class PiezoPly(Actuator):
         return self.voltage_swing
 
     def field(self, voltage: ArrayLike) -> Array:
-        """E = V/gap [V/m]."""
+        """Electric field E = V/gap [V/m] at a voltage [V]."""
         return np.asarray(voltage, dtype=float) / self.electrode_gap
 
     def free_strain(self, voltage: ArrayLike) -> Array:
@@ -167,11 +167,11 @@ class PiezoPly(Actuator):
         return stiffness, stiffness * induced_twist_rate(section)
 
     def capacitance(self, installed: InstalledActuator) -> float:
-        """C = c_A A n of one blade [F]."""
+        """Capacitance C = c_A A n of the plies on one blade [F]."""
         return self.capacitance_per_area * installed.skin_area * installed.placement.plies
 
     def drive(self, installed: InstalledActuator, swings: Swings) -> Drive:
-        """Energy ½C ΔV² of each segment over the slewing time."""
+        """Power to slew: the energy ½C ΔV² of each segment over the slewing time."""
         data = structure_data()["electrical"]
         per_area = self.capacitance_per_area * installed.placement.plies
         segments = zip(installed.segment_areas, swings, strict=True)
@@ -181,7 +181,7 @@ class PiezoPly(Actuator):
         return Drive(self.capacitance(installed), 0.0, slew, time)
 
     def harmonic_loss(self, installed: InstalledActuator, per_rev: float, amplitude: float) -> float:
-        """π f C V_a² tan δ [W], the loss of a capacitor."""
+        """Heat π f C V_a² tan δ [W] on one blade, the dielectric loss of a capacitor."""
         frequency = per_rev * installed.beam.angular_speed / (2.0 * math.pi)
         voltage = 0.5 * amplitude * self.voltage_swing
         loss_tangent = float(structure_data()["electrical"]["loss_tangent"])

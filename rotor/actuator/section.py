@@ -80,7 +80,7 @@ class HostBlade:
 
     @property
     def label(self) -> str:
-        """In words, as `new blade, GJ × 0.5`."""
+        """The blade in words, for example `new blade, GJ × 0.5`."""
         if self.kind == "retrofit":
             return "retrofit"
         return "new blade" if self.stiffness == 1.0 else f"new blade, GJ × {self.stiffness:g}"

@@ -165,7 +165,7 @@ class Verdict:
 
     @property
     def bands(self) -> tuple[float, ...]:
-        """Bands [W] of `savings`; 0 of the drive's, and where one is not known."""
+        """Uncertainty of each of `savings`, ± [W]; 0 for the drive and where it is not known."""
         return tuple(self.band_of(name) or 0.0 for name, _ in self.savings)
 
     @property
@@ -187,7 +187,7 @@ class Verdict:
 
     @property
     def broken(self) -> tuple[Limit, ...]:
-        """Limits that are not met."""
+        """The entries of `limits` that are not met."""
         return tuple(limit for limit in self.limits if not limit.ok)
 
     @property
@@ -302,8 +302,8 @@ def _doubts(shares: Sequence[float], against: Against, *blades: Sequence[Solutio
     savings count from, with the actuator's mass, and free."""
     known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
     flown, still, own, other, loaded, ideal = ([known[id(trim)] for trim in trims] for trims in blades)
-    alike = own == other or against == "best-fixed"
-    steps = {"blade": (own, other), "gross": (flown, still if alike else other)}
+    same_blade = own == other or against == "best-fixed"
+    steps = {"blade": (own, other), "gross": (flown, still if same_blade else other)}
     steps |= {"stiffness": (still, own), "mass": (loaded, flown), "ideal": (ideal, still if own == other else other)}
     return {name: difference_doubt(shares, *step) for name, step in {"net": (loaded, other), **steps}.items()}
 

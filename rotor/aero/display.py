@@ -48,7 +48,7 @@ def resampling(source: int, target: int) -> Array:
     return kernel / source
 
 
-def as_asked(problem: Problem, elements: BladeElements) -> tuple[Problem, BladeElements]:
+def at_display_azimuths(problem: Problem, elements: BladeElements) -> tuple[Problem, BladeElements]:
     """Problem and blade elements on at least as many azimuths as the models ask for, a multiple of those of the trim.
 
     The same two where the trim has as many.
@@ -142,7 +142,7 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
 
 def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
     """Stalled fractions of πR² and of the lift's moment about the hub on the azimuths that are shown."""
-    return own_stalled_parts(*as_asked(problem, elements))
+    return own_stalled_parts(*at_display_azimuths(problem, elements))
 
 
 def own_stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:

@@ -41,7 +41,7 @@ class TrimState:
         return cls(*np.asarray(values, dtype=float).tolist())
 
     def array(self) -> Array:
-        """All eight, in the order of the fields."""
+        """The eight numbers of the state, in the order of the fields."""
         return np.array(list(vars(self).values()), dtype=float)
 
 

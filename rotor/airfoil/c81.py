@@ -15,7 +15,7 @@ from pathlib import Path
 import numpy as np
 
 from rotor.airfoil.numbers import number_of
-from rotor.airfoil.polars import one_row_an_angle
+from rotor.airfoil.polars import one_row_per_angle
 from rotor.support.arrays import Array
 
 _FIELD = 7
@@ -121,7 +121,7 @@ def _block(cards: _Cards, name: str, machs: int, angles: int) -> C81Block:
         if name == "cd" and np.any(values <= 0.0):
             raise cards.fail(f"a cd at {angle:g} deg is not positive: drag must be above zero")
         rows.append((cards.at, angle, *values))
-    table = np.array(one_row_an_angle(cards.name, rows), dtype=np.float64)
+    table = np.array(one_row_per_angle(cards.name, rows), dtype=np.float64)
     return C81Block(mach, table[:, 1], table[:, 2:])
 
 

@@ -231,7 +231,7 @@ def _polar(name: str, mach: float, reynolds: float, rows: list[Row]) -> Polar:
     """ValueError with one sentence for a polar that is not a section's."""
     if not 0.0 <= mach < 1.0:
         raise ValueError(f"{name}: Mach {mach:g} is outside 0…1: run XFOIL again with MACH below 1")
-    rows = one_row_an_angle(name, rows)
+    rows = one_row_per_angle(name, rows)
     _, alpha, cl, cd, cm = np.array(rows, dtype=np.float64).T
     if not 8 <= len(alpha) <= _MOST_ANGLES:
         raise ValueError(f"{name} holds {len(alpha)} angles: give 8…{_MOST_ANGLES}, for example ASEQ -10 16 0.5")
@@ -254,7 +254,7 @@ def _polar(name: str, mach: float, reynolds: float, rows: list[Row]) -> Polar:
 RowOfAngle = TypeVar("RowOfAngle", bound=tuple[float, ...])
 
 
-def one_row_an_angle(name: str, rows: Sequence[RowOfAngle]) -> list[RowOfAngle]:
+def one_row_per_angle(name: str, rows: Sequence[RowOfAngle]) -> list[RowOfAngle]:
     """Rows of (line, angle [deg], values …) sorted by angle; of equal rows at one angle the first is kept.
 
     ValueError for an angle that comes again with other values.

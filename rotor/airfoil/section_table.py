@@ -275,7 +275,7 @@ class SectionTable:
 
     @property
     def lifts(self) -> bool:
-        """Whether it has lift at any angle; a round shank has none, and never stalls."""
+        """Whether the section has lift at any angle; a round shank has none and never stalls."""
         return bool(self.coefficients[:, :, 0].any())
 
     def lift_slope(self, mach: ArrayLike) -> Array:

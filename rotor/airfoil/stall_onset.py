@@ -66,7 +66,7 @@ class StallOnset(NamedTuple):
 @bytes_cache
 @read_only
 def stall_onset(table: SectionTable) -> StallOnset:
-    """From a section's static data."""
+    """The onset of stall of a section, from its static data."""
     mach = mach_nodes()
     zero = table.zero_lift_alpha(mach)
     angles = np.arange(-180.0, 180.1, 0.5)

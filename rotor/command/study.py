@@ -17,7 +17,7 @@ from rotor.command.common import STOPPED, add_command, add_output_arguments, che
 from rotor.study.chunks import FinishedChunk, StudyFolder, StudyFolderError, evaluate_points
 from rotor.study.cluster import ExecutorLost, dask_client
 from rotor.study.results import Results, best_row, main_effects, read_results, robust_best
-from rotor.study.run import ChunkRun, check_workers, open_study_folder, processes_here, run_chunks
+from rotor.study.run import ChunkRun, check_workers, local_processes, open_study_folder, run_chunks
 from rotor.study.study import Study, check_uncertain
 from rotor.study.study_file import StudyFile, read_study
 from rotor.support.progress import ProgressBar
@@ -210,7 +210,7 @@ def _run(args: argparse.Namespace, store: StudyFolder) -> int:
 def _executor(args: argparse.Namespace, study: Study) -> Generator[Executor]:
     """Processes of this machine, or the Dask cluster that is asked for."""
     if args.scheduler is None:
-        with processes_here(study, args.workers) as executor:
+        with local_processes(study, args.workers) as executor:
             yield executor
         return
     with dask_client(args.scheduler) as client:

@@ -13,7 +13,7 @@ from rotor.command.common import add_command
 from rotor.design.quantities import PRESETS
 from rotor.engine.linearise import jacobian
 from rotor.files.make_design import make_design
-from rotor.support.compiled import compiled_beside, log_compiling, why_not_kept
+from rotor.support.compiled import compiled_in_parallel, log_compiling, why_not_kept
 from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import analyse, solve
 
@@ -41,7 +41,7 @@ def compile_lags() -> None:
 
 
 lags_beside = partial(
-    compiled_beside, compile_lags, "rotor.aero.dynamic_stall", "rotor.aero.stalling_section", "rotor.engine.memory"
+    compiled_in_parallel, compile_lags, "rotor.aero.dynamic_stall", "rotor.aero.stalling_section", "rotor.engine.memory"
 )
 """Within, a second process compiles what `compile_lags` does: nearly half of all."""
 

@@ -23,7 +23,7 @@ LARGEST_TWIST, LARGEST_PITCH = math.radians(20.0), math.radians(10.0)
 
 @dataclass(frozen=True)
 class Harmonic:
-    """One harmonic of rotor speed."""
+    """One harmonic A cos(nψ − φ) of rotor speed."""
 
     per_rev: int
     amplitude: float

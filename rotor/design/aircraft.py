@@ -85,11 +85,11 @@ class Stand:
 
     @property
     def tilt(self) -> float:
-        """The shaft tilt given [rad]."""
+        """Shaft tilt [rad], positive forward; 0 if it is not given."""
         return self.shaft_tilt or 0.0
 
     def record(self) -> dict[str, Any]:
-        """For a design file: what is given, angles in degrees; `read_stand` reads it back."""
+        """The given inputs as a design file stores them, with angles in degrees; `read_stand` reads them back."""
         values = ((_BY_FIELD[field.name], getattr(self, field.name)) for field in fields(self))
         return {row.name: row.shown(value) for row, value in values if value is not None and value != row.default}
 
@@ -161,12 +161,12 @@ class FlightCondition:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """The quantities of the condition by name."""
+        """The quantities of the condition by name, each in the unit of its name."""
         return {name: getattr(self, row.field) for name, row in CONDITION.items()}
 
     @property
     def unusual(self) -> dict[str, float]:
-        """The quantities that differ from ordinary level flight, by name."""
+        """The quantities that differ from ordinary level flight, by name and in the unit of the name."""
         rows = {name: row for name, row in UNUSUAL.items() if name in CONDITION}
         return {name: value for name, row in rows.items() if (value := getattr(self, row.field)) != row.default}
 
@@ -191,7 +191,7 @@ class FlightCondition:
 
     @property
     def sound_speed(self) -> float:
-        """√(γRT) [m/s]."""
+        """Speed of sound √(γRT) [m/s]."""
         return math.sqrt(RATIO_OF_SPECIFIC_HEATS * GAS_CONSTANT * SEA_LEVEL_TEMPERATURE * self._temperature_ratio)
 
     @property
@@ -222,7 +222,7 @@ class Fuselage:
     """Lowest and highest drag area that the sources allow [m²]; None where they name one."""
 
     def drag(self, density: float, speed: float) -> float:
-        """[N] at air density [kg/m³] and airspeed [m/s]."""
+        """Drag [N] at an air density [kg/m³] and an airspeed [m/s], eq. (3.19)."""
         return 0.5 * density * speed**2 * self.drag_area
 
 
@@ -321,7 +321,7 @@ class RotorFiles:
 
 @dataclass(frozen=True)
 class ControlRange:
-    """From stop to stop of each control, as the pitch that it gives the blade, with the others at mid-travel [rad]."""
+    """Blade pitch [rad] at the two stops of each control, with the other controls at mid-travel."""
 
     collective: tuple[float, float]
     """Pitch at 0.75 R."""
@@ -333,7 +333,7 @@ class ControlRange:
     """[rad]"""
 
     def places(self, collective: float, cyclic_1c: float, cyclic_1s: float) -> dict[str, float]:
-        """Place of each control in its range, 0 and 1 at its stops, for pitch θ0 + θ1c cos ψ + θ1s sin ψ [rad]."""
+        """Position of each control between its stops (0 and 1) for the pitch θ0 + θ1c cos ψ + θ1s sin ψ [rad]."""
         turned = (cyclic_1c + 1j * cyclic_1s) * cmath.exp(1j * self.phase)
         pitch = {
             "collective": (collective, self.collective),
@@ -343,7 +343,7 @@ class ControlRange:
         return {name: (value - low) / (high - low) for name, (value, (low, high)) in pitch.items()}
 
     def left(self, collective: float, cyclic_1c: float, cyclic_1s: float) -> float:
-        """The least share of a range that is left to a stop, for a pitch [rad]: 0.5 in the middle, negative beyond."""
+        """Smallest distance to a stop for a pitch [rad], as a part of the range: 0.5 at mid-travel, negative beyond."""
         return min(min(place, 1.0 - place) for place in self.places(collective, cyclic_1c, cyclic_1s).values())
 
 
@@ -384,7 +384,7 @@ class Aircraft:
         return f"Aircraft({self.name}, {self.mass:.0f} kg, drag area {self.fuselage.drag_area:.3g} m², {self.rotor})"
 
     def record(self) -> Any:
-        """For a design file: the name of a shipped rotor, or all files of a user's own, line by line."""
+        """The record of a design file: the name of a shipped rotor, or the lines of every file of a user's rotor."""
         if self.files is None:
             return self.key
         return {"main": self.files.main, "files": {name: text.splitlines() for name, text in self.files.texts}}

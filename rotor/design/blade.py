@@ -64,11 +64,11 @@ class BladeStructure:
 
     @property
     def bends(self) -> bool:
-        """Whether its stiffness in bending is known."""
+        """Whether the bending stiffness of the blade is known."""
         return bool(self.flap_stiffness)
 
     def at(self, r: ArrayLike, values: tuple[float, ...]) -> Array:
-        """One of the distributions at r [m]."""
+        """A distribution, given by its `values` at `stations`, at the radii r [m]; same shape as r."""
         return np.interp(np.asarray(r, dtype=float), self.stations, values)
 
     def centrifugal_force(self, r: ArrayLike, angular_speed: float, steps: int = 400) -> Array:
@@ -120,7 +120,7 @@ class Carried:
 
 @dataclass(frozen=True)
 class Blade:
-    """One blade."""
+    """A blade: planform, sections, hinges and mass; lengths in metres, stations r = y/R."""
 
     root_cutout: float
     """r/R where the lifting blade begins."""
@@ -176,7 +176,7 @@ class Blade:
 
     @property
     def rigid(self) -> bool:
-        """Whether it does not flap: held at the hub, without an elastic root."""
+        """Whether the blade cannot flap: it is fixed to the hub and has no elastic root."""
         return self.hingeless and not self.flap_spring
 
     def chord(self, r: ArrayLike) -> Array:
@@ -263,7 +263,7 @@ class Rotor:
         return f"Rotor({self.name}, {size}, twist {self.builtin_twist.spec()})"
 
     def at_speed(self, percent: float) -> "Rotor":
-        """This rotor at a part of the speed it is built for [%]; 100 is itself."""
+        """This rotor at a percentage of its nominal speed; 100 returns the rotor itself."""
         speed = self.angular_speed if self.own_speed is None else self.own_speed
         if percent == 100.0:
             return self if self.own_speed is None else replace(self, angular_speed=speed, own_speed=None)
@@ -293,7 +293,7 @@ class Rotor:
 
     @property
     def flap_spring_ratio(self) -> float:
-        """K/(I Ω²), the part of ν² that the spring at the hinge has."""
+        """K/(I Ω²) [-], the contribution of the hinge spring to ν²."""
         return self.blade.flap_spring / (self.blade.flap_inertia * self.angular_speed**2)
 
 

@@ -135,7 +135,7 @@ class Models:
     """Azimuth stations on which a lifting line is solved, at least."""
 
     def has(self, name: str) -> bool:
-        """Whether one of the switches is on and belongs to these models."""
+        """Whether a switch, by name, is on and has an effect with these models."""
         return bool(getattr(self, name)) and not (self.document_losses and name in BEYOND_DOCUMENT)
 
     def __post_init__(self) -> None:
@@ -282,7 +282,7 @@ class Design:
                 for name in ("hover_inflow", "low_speed", "loss_on", *switches, *quantities.OPTIONS)
                 if name in switches or getattr(self.models, name) != getattr(preset, name)
             },
-            **{name: asked for name, asked in grid_asked(self.models, preset).items() if asked is not None},
+            **{name: asked for name, asked in grid_arguments(self.models, preset).items() if asked is not None},
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
             **({} if stand is None else {"trim": self.models.trim, "stand": stand.record()}),
@@ -305,7 +305,7 @@ class Design:
 
     @property
     def jig(self) -> TwistLaw:
-        """The twist without what an actuator on the blades adds."""
+        """The built-in twist law, without the twist that an actuator on the blades adds."""
         law, carried = self.twist, self.rotor.blade.carried
         return law.base if isinstance(law, SumTwist) and carried and law.name == carried.name else law
 
@@ -322,28 +322,28 @@ class Design:
 
     @property
     def numbers(self) -> dict[str, float]:
-        """The numbers of the table by name."""
+        """The numbers of `rotor.design.quantities.NUMBERS` by name, each in the unit of its name."""
         return {name: row.of(self) for name, row in quantities.NUMBERS.items()}
 
     @property
     def unusual(self) -> dict[str, float]:
-        """Those that differ from ordinary level flight of the aircraft as built."""
+        """The entries of `numbers` that differ from ordinary level flight of the aircraft as built."""
         return {name: row.of(self) for name, row in quantities.UNUSUAL.items() if row.of(self) != row.usual(self)}
 
     @property
     def linear_active_twist(self) -> tuple[Harmonic, ...]:
-        """Harmonics of an active twist that is linear from the root cut-out to the tip; none for any other."""
+        """Harmonics of the active twist if it is linear from the root cut-out to the tip; empty otherwise."""
         active, root = self.active_twist, self.rotor.blade.root_cutout
         return active.harmonics if active and active == linear_active_twist(active.harmonics, root) else ()
 
     @property
     def active_waves(self) -> tuple[Harmonic, ...]:
-        """Harmonics of the active twist; none without."""
+        """Harmonics of the active twist; empty for a design without it."""
         return () if self.active_twist is None else self.active_twist.harmonics
 
     @property
     def pitch_waves(self) -> tuple[ActiveTwist, ...]:
-        """What is given of the pitch as a function of azimuth: active twist and n/rev root pitch; none in hover."""
+        """Harmonics of prescribed pitch, active twist and n/rev root pitch; empty in hover."""
         if self.hovering:
             return ()
         pitch = (root_pitch(self.pitch_per_rev),) if self.pitch_per_rev else ()
@@ -367,7 +367,7 @@ class Design:
 
     @property
     def vertical_ratio(self) -> float:
-        """µ_c = V_c/(ΩR)"""
+        """Climb ratio µ_c = V_c/(ΩR) [-]."""
         return self.vertical_speed / self.rotor.tip_speed
 
     def in_disk_axes(self, tilt: float) -> tuple[float, float]:
@@ -397,12 +397,12 @@ class Design:
 
     @property
     def elastic(self) -> bool:
-        """Whether the blade twists under its loads: switched on, and its structure known."""
+        """Whether the blade twists under its loads: the effect is on and the structure of the blade is known."""
         return self.models.has("elastic_twist") and self.rotor.blade.structure is not None
 
     @property
     def flaps(self) -> bool:
-        """Whether the blades flap: switched on, and not rigid."""
+        """Whether the blades flap: the effect is on and the hub is not rigid."""
         return self.models.flapping and not self.rotor.blade.rigid
 
     @property
@@ -453,7 +453,7 @@ class Design:
 
     @property
     def thrust_per_metre(self) -> float:
-        """What 1 of a coefficient per r/R, such as `dct`, stands for on one blade [N/m]."""
+        """Load on one blade [N/m] for a value of 1 of a coefficient per r/R, such as `dct`."""
         return self.thrust_unit / (self.rotor.blades * self.rotor.radius)
 
     @cached_property
@@ -515,7 +515,7 @@ def with_grid(models: Models, elements: int | None = None, azimuths: int | None 
     return replace(models, **{name: value for name, value in asked.items() if value is not None})
 
 
-def grid_asked(models: Models, plain: Models) -> dict[str, int | None]:
+def grid_arguments(models: Models, plain: Models) -> dict[str, int | None]:
     """The arguments of `with_grid` that make these models of a preset's; None for its own numbers."""
     asked_for = dict[str, int | None]()
     for asked, line in (("elements", "panels"), ("azimuths", "line_azimuths")):

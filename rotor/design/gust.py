@@ -15,7 +15,7 @@ class Gust:
     """Of all the air, up [m/s]: rotor, wake and airframe meet a descent at this speed."""
 
     def over_disk(self, r: Array, psi: Array, order: int = 0) -> Array:
-        """What comes to it at r/R and azimuth ψ [rad], up along the shaft [m/s]; order 1: its derivative by ψ [m/s].
+        """Gust [m/s] at r/R and azimuth ψ [rad], up along the shaft, added to `uniform`; order 1: its ψ derivative.
 
         r and psi broadcast, as the result does. Only the blades meet it: the mean over the disk belongs in `uniform`.
         """
@@ -24,6 +24,6 @@ class Gust:
 
     @property
     def axisymmetric(self) -> bool:
-        """Whether it is the same at all azimuths, as hover needs it."""
+        """Whether the gust is the same at all azimuths, which hover requires."""
         r, psi = np.linspace(0.0, 1.0, 16)[:, None], np.linspace(0.0, 2.0 * np.pi, 90, endpoint=False)
         return not np.any(self.over_disk(r, psi, 1))

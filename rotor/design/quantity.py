@@ -49,7 +49,7 @@ class Slider:
 
 @dataclass(frozen=True)
 class Quantity:
-    """One quantity of a design."""
+    """One quantity of a design: its names, unit, bounds and texts, and how to get and set it."""
 
     name: str
     """Argument of `make_design`, and of a study; people read the unit of a number at its end."""
@@ -126,16 +126,16 @@ class Quantity:
 
     @property
     def numeric(self) -> bool:
-        """Whether it is a number."""
+        """Whether the quantity is a number."""
         return self.kind in ("number", "whole")
 
     @property
     def field(self) -> str:
-        """The last of the fields that lead to it."""
+        """Name of the dataclass field that holds the quantity."""
         return self.place.rpartition(".")[2]
 
     def help_with(self, choices: Iterable[str]) -> str:
-        """Its help, and for a text the names that it may have."""
+        """The help text, followed by the allowed names if the quantity is a text."""
         return f"{self.help}: {', '.join(choices)}" if self.kind == "text" and choices else self.help
 
     @property
@@ -162,11 +162,11 @@ class Quantity:
         return None if design is None else self.shown(design)
 
     def usual(self, design: Any) -> Any:
-        """Its default; where there is none, what the aircraft of the design has in its place."""
+        """The default value; if the row has none, the value of the aircraft of the design."""
         return self.of(design.aircraft) if self.default is None else self.default
 
     def put(self, design: Any, value: Any) -> Any:
-        """The design with this value, in the unit of the name; ValueError where it lies outside."""
+        """The design with this value, in the unit of the name; ValueError if it is out of bounds."""
         return replaced(design, self.place.split("."), self.si(value))
 
     def si(self, value: Any) -> Any:
@@ -174,7 +174,7 @@ class Quantity:
         return math.radians(value) if self.unit == "°" else value
 
     def shown(self, value: Any) -> Any:
-        """What a design holds, in the unit of the name."""
+        """A value as the design holds it, converted to the unit of the name: angles to degrees."""
         return math.degrees(value) if self.unit == "°" else value
 
     def read(self, value: object) -> float:
@@ -182,7 +182,7 @@ class Quantity:
         return number(self.name, value, f"{self.examples[-1]:g}")
 
     def check(self, value: float, tested: bool = False) -> None:
-        """ValueError with one sentence where the value, in the unit of the name, lies outside."""
+        """Raise ValueError with one sentence if the value, in the unit of the name, is out of bounds."""
         high = self.high if self.high_on_stand is None or not tested else self.high_on_stand
         slack = 1e-9 if self.unit == "°" else 0.0  # Of an angle that was radians.
         if not (math.isfinite(value) and self.low - slack <= value <= high + slack):
@@ -192,7 +192,7 @@ class Quantity:
             raise ValueError(f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: {remedy}")
 
     def check_choice(self, value: Any) -> None:
-        """ValueError with one sentence for what is none of the choices."""
+        """Raise ValueError with one sentence if the value is not one of `choices`."""
         check_known(self.name.replace("_", " "), value, self.choices)
 
     def in_words(self, value: float) -> str:

@@ -43,13 +43,13 @@ class TwistLaw(Protocol):
         ...
 
     def spec(self) -> str:
-        """The law as `parse_twist` reads it."""
+        """The SPEC of the law, which `parse_twist` reads back."""
         ...
 
 
 @dataclass(frozen=True)
 class SpecTwist(TwistLaw):
-    """A law that its SPEC writes out. Here for laws whose fields are angles [rad], in the order of the SPEC."""
+    """A law with a SPEC. This base class serves laws whose fields are angles [rad], in the order of the SPEC."""
 
     kind: ClassVar[str]
     """First word of its SPEC."""
@@ -72,20 +72,20 @@ class SpecTwist(TwistLaw):
 
     @classmethod
     def of(cls, *values: float) -> Self:
-        """The law of its parameters, SI."""
+        """The law with these parameters, in SI units."""
         return cls(*values)
 
     @property
     def values(self) -> tuple[float, ...]:
-        """Its parameters, SI."""
+        """The parameters of the law in SI units."""
         return astuple(self)
 
     def spec(self) -> str:
-        """The law as `parse_twist` reads it."""
+        """The SPEC of the law, which `parse_twist` reads back."""
         return f"{self.kind}:{_pairs(self.values, ())}"
 
     def slopes(self, r: Array) -> Array:
-        """∂θ_tw(r)/∂value, exact, (values, stations)."""
+        """Exact derivatives ∂θ_tw(r)/∂value at the stations r = y/R, (values, stations)."""
         raise NotImplementedError(f"{type(self).__name__} has no parameters to search")
 
 
@@ -168,7 +168,7 @@ class PiecewiseLinearTwist(SpecTwist):
         return f"segments:{_pairs(self.rates, self.breaks)}"
 
     def slopes(self, r: Array) -> Array:
-        """By a rate: the length of its segment between 0.75 R and r; by a break: the jump of rate there, for r beyond.
+        """Slopes: by a rate, the length of its segment from 0.75 R to r; by a break, its jump of rate, for r beyond.
 
         On the break itself the slope is that from inboard.
         """
@@ -217,7 +217,7 @@ class SplineTwist(SpecTwist):
 
     @classmethod
     def of(cls, *values: float) -> Self:
-        """Through angles at `SEARCHED_STATIONS`."""
+        """The law through these angles [rad] at `SEARCHED_STATIONS`."""
         return cls(SEARCHED_STATIONS, values)
 
     def spec(self) -> str:

@@ -67,7 +67,7 @@ def uh60a_structure(radius: float = 8.1788) -> BendingStructure:
 
 @cache
 def uh60a_torsion(radius: float) -> BladeStructure:
-    """What of `uh60a_structure` a rotor file may state; radius R [m]."""
+    """The part of `uh60a_structure` that a rotor file may state, for a radius R [m]."""
     known = uh60a_structure(radius)
     return BladeStructure(**{field.name: getattr(known, field.name) for field in fields(BladeStructure)})
 

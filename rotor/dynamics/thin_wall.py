@@ -38,7 +38,7 @@ class Material:
 
 @dataclass(frozen=True)
 class Layer:
-    """A sheet in a wall."""
+    """A sheet of one material in a wall, with its thickness, fibre angle and free strain."""
 
     material: Material
     thickness: float
@@ -217,5 +217,5 @@ def induced_twist_rate(section: WallSection) -> float:
 
 
 def mass_per_length(section: WallSection) -> float:
-    """[kg/m]"""
+    """Mass per length of the section [kg/m]."""
     return float(section.mass @ section.length)

@@ -147,7 +147,7 @@ class TorsionModes:
 
     @property
     def stiffness(self) -> Array:
-        """[N m/rad], (modes,)."""
+        """Modal stiffness [N m/rad], (modes,)."""
         return self.inertia * self.frequency**2
 
 

@@ -97,14 +97,14 @@ def _refusal(place: Place, value: Any, options: list[inspect.Type]) -> Refusal:
             case inspect.LiteralType(values=choices), _ if isinstance(value, str) or len(options) == 1:
                 names = [str(choice) for choice in choices]
                 hint = (isinstance(value, str) and did_you_mean(value, names)) or ":"
-                return Refusal(f"{_says(place, repr(value))}{hint} use {' or '.join(names)}", *place)
+                return Refusal(f"{_entry(place, repr(value))}{hint} use {' or '.join(names)}", *place)
             case (inspect.IntType(ge=low, le=high), int()) | (inspect.FloatType(ge=low, le=high), int() | float()):
                 if not isinstance(value, bool):
                     return _out_of_bounds(place, value, low, high)
             case _:
                 pass
     wanted, examples = zip(*(_WORDS[type(each)] for each in options), strict=True)
-    return Refusal(f"{_says(place, repr(value))}, not {' or '.join(wanted)}: write for example {examples[0]}", *place)
+    return Refusal(f"{_entry(place, repr(value))}, not {' or '.join(wanted)}: write for example {examples[0]}", *place)
 
 
 def _wrong_key(place: Place, table: dict[str, Any], declared: inspect.StructType) -> Refusal:
@@ -140,7 +140,7 @@ def _key(place: Place) -> tuple[str, str]:
     return key, "holds" if place and isinstance(place[-1], int) else "is"
 
 
-def _says(place: Place, value: str) -> str:
+def _entry(place: Place, value: str) -> str:
     return f"{' '.join(_key(place))} {shorten(value)}"
 
 
@@ -156,7 +156,7 @@ def _out_of_bounds(
 ) -> Refusal:
     bounds = f"{low:g}…{high:g} {unit_of(_key(place)[0])}".rstrip()
     number = f"{value:g}" if isinstance(value, float) else str(value)
-    return Refusal(f"{_says(place, number)}, outside {bounds}{remedy}", *place)
+    return Refusal(f"{_entry(place, number)}, outside {bounds}{remedy}", *place)
 
 
 def one_of(table: FileTable, *keys: str) -> str:

@@ -216,7 +216,7 @@ class TailRotorTable(FileTable, frozen=True, kw_only=True):
 
 
 def angular_speed(rotor: MainRotorTable | TailRotorTable) -> float:
-    """[rad/s]"""
+    """Rotor speed [rad/s] of the table, from whichever of its keys gives it."""
     if rotor.speed_rpm is not None:
         return rotor.speed_rpm * math.pi / 30.0
     return rotor.angular_speed_rad_s or (rotor.tip_speed_m_s or 0.0) / rotor.radius_m

@@ -52,7 +52,7 @@ class OwnSectionTable(FileTable, frozen=True, kw_only=True):
 
     @property
     def named(self) -> tuple[str, ...]:
-        """All files."""
+        """Names of all files of the section."""
         return self.data if self.outline is None or _is_known(self.outline) else (*self.data, self.outline)
 
 
@@ -89,7 +89,7 @@ def read_section(
                 f"{table.data[0]}: the lift does not rise through zero: it is zero at every angle; for a body without "
                 "lift write `drag_coefficient` in place of `deck`"
             )
-        says = _deck_says(given)
+        says = _deck_words(given)
     else:
         sets = [parse_polars(text, file) for file, text in zip(table.data, contents, strict=True)]
         decks, says = _decks_of(name, sets, thickness)
@@ -148,7 +148,7 @@ def _percent(share: float) -> str:
     return f"{100.0 * share:.1f} %"
 
 
-def _deck_says(deck: C81Deck) -> str:
+def _deck_words(deck: C81Deck) -> str:
     lift, held = deck.cl, ", held at all Mach numbers" if len(deck.cl.mach) == 1 else ""
     return (
         f"deck over {_range(lift.alpha_deg[0], lift.alpha_deg[-1])}° at Mach "

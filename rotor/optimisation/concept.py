@@ -104,12 +104,12 @@ class Concept:
 
     @property
     def parameters(self) -> tuple[Parameter, ...]:
-        """Those that are free, in the order of every vector of values."""
+        """The free parameters, in the order of every vector of values."""
         return tuple(self.every[k] for k in self._free)
 
     @property
     def handles(self) -> tuple[Handle, ...]:
-        """Sketch elements, one for each free parameter."""
+        """The part of the blade that each free parameter moves."""
         return tuple(parameter.handle for parameter in self.parameters)
 
     @property
@@ -125,11 +125,11 @@ class Concept:
 
     @property
     def breaks(self) -> tuple[str, ...]:
-        """Those of `inputs` that are stations r/R."""
+        """Names of the page's inputs that are break points r/R."""
         return tuple(name for name, one in zip(self.inputs, self.parameters, strict=True) if not one.angular)
 
     def twist(self, values: Values) -> TwistLaw:
-        """The law."""
+        """The twist law with these values of the free parameters."""
         law = self.law.of(*self._all(values))
         return law if self.base is None else SumTwist(self.base, law)
 
@@ -138,12 +138,12 @@ class Concept:
         return self.law.of(*self._all(values)).slopes(r)[self._free]
 
     def values_of(self, law: TwistLaw) -> tuple[float, ...] | None:
-        """The values whose law this is, where every parameter is free; None where there are none."""
+        """All parameter values of a law of this concept's kind, fixed ones too; None for any other law."""
         values = law.values if isinstance(law, SpecTwist) and type(law) is self.law else ()
         return values if len(values) == len(self.every) else None
 
     def apply(self, design: Design, values: Values) -> Design:
-        """The design with the law, and with the concept's sections."""
+        """The design with the twist law of these values and with the airfoils of the concept."""
         rotor = design.rotor
         if self.airfoils:
             places = tuple(self._all(values)[len(self.airfoils) :])

@@ -149,7 +149,7 @@ class LocalModel:
         return margins, slopes
 
     def least(self, x: Array, reach: float = 1.0) -> Array:
-        """Where the model is least within the limits and `reach` of x, in parts of the ranges."""
+        """The minimum of the model within the limits and within `reach` of x, in parts of the ranges."""
         unit = 2.0 * BAND * self.objective.value
 
         def value(x: Array) -> tuple[float, Array]:

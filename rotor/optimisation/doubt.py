@@ -65,7 +65,7 @@ def difference_doubt(
 
 @dataclass(frozen=True)
 class BestTwistDoubt:
-    """Where the best twist may lie."""
+    """Range of the best twist under uncertain inputs and other models."""
 
     bands: tuple[ParameterBand, ...] = ()
     """The range of each parameter within its bounds, SI."""
@@ -81,7 +81,7 @@ def best_twist_doubt(
     best: tuple[float, ...],
     starts: Starts = _cold,
 ) -> BestTwistDoubt:
-    """Where the best twist may lie by the uncertain inputs, and by another inflow model.
+    """The range of the best twist under the uncertain inputs, and with another inflow model.
 
     Empty where the objective is not total power, a neighbour does not trim, or the best lies on a bound.
     """

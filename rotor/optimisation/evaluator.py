@@ -77,7 +77,7 @@ class Evaluation:
 
     @property
     def power(self) -> float | None:
-        """[W]; None when it does not trim."""
+        """Mean power [W]; None if the design does not trim."""
         return self.blade.measured.power
 
     @property
@@ -104,7 +104,7 @@ class SearchStopped(Exception):
 
 
 class Evaluator:
-    """One search's evaluations."""
+    """Evaluates the designs of one search and keeps the results."""
 
     def __init__(
         self,
@@ -137,7 +137,7 @@ class Evaluator:
 
     @property
     def elapsed(self) -> float:
-        """[s]"""
+        """Time since the search began [s]."""
         return time.perf_counter() - self.begin
 
     def values(self, x: Array) -> tuple[float, ...]:

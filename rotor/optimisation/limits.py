@@ -102,7 +102,7 @@ class Limits:
             raise ValueError(f"limit {self.index:g} % of the vibration index is not positive: give more than 0")
 
     def about(self, twist: TwistLaw, root: float) -> "Limits":
-        """With `change_deg` as a limit on the change from this twist of a blade that begins at `root` (r/R)."""
+        """These limits with `change_deg` counted from this twist, for a blade that begins at `root` (r/R)."""
         if self.change_deg is None:
             return self
         if self.change is not None:

@@ -135,7 +135,7 @@ class ObjectiveValue:
 
     @property
     def solutions(self) -> tuple[Solution, ...]:
-        """Those of `trims`."""
+        """The solutions of `trims`."""
         return tuple(trim.solution for trim in self.trims)
 
     @property

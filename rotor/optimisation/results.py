@@ -132,12 +132,12 @@ class Optimum:
 
     @property
     def saving_percent(self) -> float | None:
-        """`saving` in per cent."""
+        """Saving of the best twist in per cent of the baseline power; None without a saving."""
         return None if self.saving is None else 100.0 * self.saving
 
     @property
     def saving(self) -> float | None:
-        """Saving of the best twist relative to the baseline power."""
+        """Saving of the best twist as a part of the baseline power [-]; None without a saving."""
         if self.best is None or self.baseline_power is None:
             return None
         return 1.0 - self.best.power / self.baseline_power

@@ -100,12 +100,12 @@ class Schedule:
 
     @property
     def complete(self) -> bool:
-        """Whether every cell is there."""
+        """Whether every optimum has been computed."""
         return len(self.cells) == len(self.plan.concepts) * (len(self.plan.conditions) + 1)
 
     @property
     def converged(self) -> bool:
-        """Whether every cell is there and was found."""
+        """Whether every optimum has been computed and converged."""
         return self.complete and all(cell.optimum.status is SearchStatus.CONVERGED for cell in self.cells)
 
     def gain_doubt(self, concept: str) -> Doubt | None:

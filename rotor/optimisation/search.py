@@ -113,7 +113,7 @@ def run_search(
             evaluate.start = k
             run.descend_from(k, x)
         if any(parameter.unit == "R" for parameter in search.concept.parameters):
-            run.look_elsewhere()
+            run.try_predicted_minima()
         if run.best is not None and search.band:
             evaluate.phase = "band"
             run.band = measure_band(evaluate, run.best)
@@ -168,7 +168,7 @@ class _Run:
         elif descent.end is not None and descent.converged:
             self._gather(start, descent.end)
 
-    def look_elsewhere(self) -> None:
+    def try_predicted_minima(self) -> None:
         """Descend where the model foresees less than the best: laws with movable breaks have many minima."""
         places = scipy.stats.qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(_MODEL_STARTS)
         for _ in range(_MODEL_STARTS):

@@ -93,7 +93,7 @@ class TMatrix:
         return Response(float(values[-1]), index, dict(zip(LOADS, amplitudes, strict=True)))
 
     def twist(self, x: Array) -> tuple[Harmonic, ...]:
-        """Active twist of cosines and sines [rad], (2 H,)."""
+        """Active twist with these cosine and sine amplitudes [rad], (2 H,)."""
         pairs = zip(self.harmonics, x.reshape(-1, 2).tolist(), strict=True)
         return tuple(Harmonic(n, math.hypot(a, b), math.atan2(b, a)) for n, (a, b) in pairs if a or b)
 
@@ -202,7 +202,7 @@ def _measured(trim: Analysis, shaped: Design) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, eq=False)
 class FrontPoint:
-    """One compromise between power and vibration, trimmed."""
+    """One trimmed point of the trade-off between power and vibration."""
 
     design: Design
     power: float

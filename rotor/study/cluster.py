@@ -64,7 +64,7 @@ class ClusterWatch:
         self._since: float | None = None
         """When they were first missed."""
 
-    def look(self) -> None:
+    def check(self) -> None:
         """Call often while nothing comes. ExecutorLost where nobody has been there for too long."""
         if self._client is None or time.monotonic() - self._asked < _QUERY_INTERVAL:
             return
@@ -79,7 +79,7 @@ class ClusterWatch:
         elif now - self._since > _WORKER_TIMEOUT:
             raise ExecutorLost(missing)
 
-    def came(self) -> None:
+    def chunk_received(self) -> None:
         """A chunk came from a worker."""
         self._had, self._since = True, None
 

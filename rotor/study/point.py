@@ -70,7 +70,7 @@ class WarmStarts:
         self.optimum: tuple[float, ...] = ()
 
     def guess(self, values: Mapping[str, Value], *, hovering: bool) -> Guess | None:
-        """Where the trim of a point may begin; None where nothing is known of such points."""
+        """The start for the trim of a point; None if no similar point has been trimmed."""
         if self._kind(values, hovering) != self._key or not self._trims:
             return None
         steps = self._places - self._place(values)

@@ -48,7 +48,7 @@ class Results:
 
     @property
     def good(self) -> Booleans:
-        """Rows with a result, (rows,)."""
+        """True for each row that has a result, (rows,)."""
         return self.columns["status"] == CONVERGED
 
     def row_of(self, point: int) -> int | None:

@@ -110,7 +110,7 @@ def run_study(
                 notify(done, total)
 
         if missing:
-            with nullcontext(executor) if executor is not None else processes_here(file.study, workers) as pool:
+            with nullcontext(executor) if executor is not None else local_processes(file.study, workers) as pool:
                 ended = run_chunks(pool, store, missing, heard)
             if ended.lost:
                 raise RuntimeError(ended.sentence)
@@ -131,7 +131,7 @@ def check_workers(workers: int | None) -> None:
 
 
 @contextmanager
-def processes_here(study: Study, workers: int | None) -> Generator[Executor]:
+def local_processes(study: Study, workers: int | None) -> Generator[Executor]:
     """Processes of this machine, by default one per core; they end with the context."""
     evaluate_points(study, 0, 1)  # Compiles the kernels once, not in every process.
     pool = Processes(workers or os.cpu_count() or 1)
@@ -178,7 +178,7 @@ def run_chunks(
             try:
                 future = finished.get(timeout=_POLL_INTERVAL)
             except Empty:
-                watch.look()
+                watch.check()
                 continue
             chunk = under_way.pop(future)
             if future.cancelled():  # By Dask, when its scheduler is gone.
@@ -186,7 +186,7 @@ def run_chunks(
             match future.exception():
                 case None:
                     done = future.result()
-                    watch.came()
+                    watch.chunk_received()
                     store.keep(done.chunk, done.content)
                     notify(done)
                 case BrokenExecutor() | MemoryError() if tries[chunk] < _MOST_TRIES:

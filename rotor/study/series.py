@@ -109,7 +109,7 @@ class SweepTable:
 
     @property
     def doubts(self) -> tuple[Doubt | None, ...]:
-        """How sure `changes` are; None where there is none, and for the rows of `reference` themselves."""
+        """Uncertainty of each of `changes`; None if a row has no change or belongs to `reference`."""
         power = [one.converged and one.design.models.trim != "free-rotor" for one in self.solutions]
         rows = list(zip(self.labels, _values(self.solutions, self.axis), power, self.solutions, strict=True))
         base = {place: one for label, place, has, one in rows if has and label == self.reference}
@@ -120,7 +120,7 @@ class SweepTable:
 
     @property
     def axis(self) -> Quantity:
-        """What was swept; where that is not known, what varies."""
+        """The swept quantity; if it was not recorded, the one that varies."""
         return SWEPT[self.over] if self.over in SWEPT else _swept(self.solutions)
 
     @property
@@ -405,12 +405,12 @@ class WaterfallStep:
 
     @property
     def power(self) -> float | None:
-        """Total [W]; None where it did not trim."""
+        """Total power [W]; None if the step did not trim."""
         return None if self.budget is None else self.budget.total
 
     @property
     def change(self) -> dict[str, float] | None:
-        """What it added to each part [W]; None at the start and where it did not trim."""
+        """Change of each part of power by this step [W]; None for the first step and for one that did not trim."""
         if self.against is None or self.budget is None:
             return None
         return {part: getattr(self.budget, part) - getattr(self.against, part) for part in PARTS}
@@ -464,6 +464,6 @@ class Waterfall:
 
 
 def waterfall(design: Design) -> Waterfall:
-    """All switches on one after another, then each one off alone; a trim for each."""
+    """Trim with the switches on one after another, then with each one alone off."""
     steps, on = tuple(waterfall_steps(design)), 1 + len(SWITCHES)
     return Waterfall(steps[:on], steps[on:])

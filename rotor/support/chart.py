@@ -97,7 +97,7 @@ class Points:
     """What a press on each says to the page; empty: it cannot be pressed."""
     names: Sequence[str] = ()
     """What stands beside each in the drawing."""
-    beside: NamePlace = "above"
+    name_place: NamePlace = "above"
     faint: Sequence[bool] = ()
     size: float = 4.0
     """Radius [px]."""
@@ -245,7 +245,7 @@ class DrawnPoints(_DrawnSeries, frozen=True, tag="points"):
     press: Sequence[str] = ()
     names: Sequence[str] = ()
     faint: Sequence[bool] = ()
-    beside: NamePlace | None = None
+    name_place: NamePlace | None = None
     scatter: Sequence[float | None] = ()
 
 
@@ -307,7 +307,7 @@ def _drawn_series(series: Series, colour: str, digits: dict[str, int]) -> DrawnL
         press=tuple(series.press),
         names=tuple(series.names),
         faint=tuple(series.faint),
-        beside=series.beside if series.names else None,
+        name_place=series.name_place if series.names else None,
         scatter=tuple(_rounded(series.scatter, digits["y"] + 1)),
     )
 

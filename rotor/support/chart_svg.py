@@ -141,7 +141,7 @@ def _drawn(axes: _Axes, series: Series, colour: str, size: float = 1.0, thick: f
         parts.append(tag("path", d=bars, stroke=colour, fill="none", stroke_width=2 * thick, stroke_opacity=0.45))
     radius = series.size * size
     if size == 1.0:
-        parts += [_beside(place, name, series) for place, name in zip(places, series.names, strict=False) if name]
+        parts += [_point_name(place, name, series) for place, name in zip(places, series.names, strict=False) if name]
     if series.mark == "cross":
         d = f"l{2 * radius:g},{2 * radius:g}m0,{-2 * radius:g}l{-2 * radius:g},{2 * radius:g}"
         crosses = "".join(f"M{x - radius:.1f},{y - radius:.1f}{d}" for x, y in known)
@@ -151,10 +151,10 @@ def _drawn(axes: _Axes, series: Series, colour: str, size: float = 1.0, thick: f
     return group(parts)
 
 
-def _beside(place: Place, name: str, series: Points) -> Markup:
+def _point_name(place: Place, name: str, series: Points) -> Markup:
     """The name of a point, where its series says."""
     x, y = place
-    down = series.size + 12.0 if series.beside == "below" else -series.size - 4.0
+    down = series.size + 12.0 if series.name_place == "below" else -series.size - 4.0
     return tag("g", _text(x, y + down, name), fill="currentColor")
 
 

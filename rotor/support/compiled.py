@@ -96,9 +96,9 @@ class _RepairingCache(FunctionCache):
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """The kept code, once another process that compiles it has done so; None where none can be read."""
         kept = self._read(sig, target_context)
-        if kept is None and self._function in _beside.functions and _beside.at_work:
+        if kept is None and self._function in _second_process.functions and _second_process.at_work:
             with _watch.waiting(self._function):
-                while kept is None and _beside.at_work:
+                while kept is None and _second_process.at_work:
                     time.sleep(_POLL_S)
                     kept = self._read(sig, target_context)
         return kept
@@ -235,7 +235,7 @@ def why_not_kept() -> str:
     return sentence if _watch.unkept and _watch.began else ""
 
 
-class _Beside:
+class _SecondProcess:
     """Another process that compiles some of the kernels."""
 
     functions: frozenset[Callable[..., Any]] = frozenset()
@@ -246,13 +246,13 @@ class _Beside:
         return self.process is not None and self.process.poll() is None
 
 
-_beside = _Beside()
+_second_process = _SecondProcess()
 _POLL_S = 0.05
 """[s] between two looks for a kernel that the other process compiles."""
 
 
 @contextmanager
-def compiled_beside(compile_them: Callable[[], None], *modules: str) -> Generator[None]:
+def compiled_in_parallel(compile_them: Callable[[], None], *modules: str) -> Generator[None]:
     """Within, the kernels of these modules are compiled by a second process, and waited for.
 
     `compile_them`: a function of a module, which the process calls. There is none where some of these are kept, none
@@ -264,7 +264,7 @@ def compiled_beside(compile_them: Callable[[], None], *modules: str) -> Generato
         return
     program = f"from {compile_them.__module__} import {compile_them.__name__} as go; go()"
     with subprocess.Popen([sys.executable, "-c", program], stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) as process:
-        _beside.functions, _beside.process = frozenset(kernel.py_func for kernel in kernels), process
+        _second_process.functions, _second_process.process = frozenset(kernel.py_func for kernel in kernels), process
         try:
             yield
         except BaseException:

@@ -6,7 +6,7 @@ from rotor.support.chart import Band, Chart, Line
 from rotor.support.units import typographic
 from rotor.support.user_input import extra_module
 
-_BESIDE: dict[str, dict[str, Any]] = {
+_NAME_PLACES: dict[str, dict[str, Any]] = {
     "above": {"xytext": (0, 4), "textcoords": "offset points", "ha": "center"},
     "below": {"xytext": (0, -12), "textcoords": "offset points", "ha": "center"},
 }
@@ -57,7 +57,7 @@ def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:
         else:
             look |= {"linestyle": "none", "marker": _MARKERS[series.mark], "markersize": series.size}
             for x, y, name in zip(series.x, series.y, series.names, strict=False):
-                ax.annotate(name, (x, y), **_BESIDE[series.beside])
+                ax.annotate(name, (x, y), **_NAME_PLACES[series.name_place])
             if series.scatter:
                 error = {"xerr" if named else "yerr": series.scatter}
                 ax.errorbar(series.x, series.y, fmt="none", ecolor=ink, alpha=0.45, capsize=2, **error)

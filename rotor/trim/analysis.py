@@ -43,17 +43,17 @@ class Analysis:
 
     @cached_property
     def adjoint(self) -> Adjoint:
-        """For the gradient of any measure."""
+        """The adjoint of the trim, from which the gradient of any measure follows."""
         return Adjoint(self.solution.require(), self.linear)
 
     @cached_property
     def gradient(self) -> PitchGradient:
-        """∂P/∂θ(r) of total power."""
+        """Gradient of total power by the pitch of each element, ∂P/∂θ(r) [W/rad]."""
         return power_along(self.adjoint)
 
     @cached_property
     def power_changes(self) -> Mapping[str, Array]:
-        """`rotor.trim.power_changes.power_changes` [W]."""
+        """Effect of each uncertain input on power [W], see `rotor.trim.power_changes`."""
         return power_changes(self.adjoint)
 
 

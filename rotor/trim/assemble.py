@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from rotor.aero.display import areas, as_asked, stalled_parts
+from rotor.aero.display import areas, at_display_azimuths, stalled_parts
 from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
@@ -83,7 +83,7 @@ def _evaluated(solution: Solution) -> tuple[Problem, BladeElements]:
 def shown_of(solution: Solution) -> Shown:
     """What is shown of a solution, from its blade elements, or from its equations evaluated once more."""
     problem, elements = _evaluated(solution)
-    asked = as_asked(problem, elements)
+    asked = at_display_azimuths(problem, elements)
     fields = _fields(*asked)
     seen = areas(asked[0].disk, asked[1], fields.stall_margin)
     shown = Shown(fields, seen, _elastic(problem, elements, asked))

@@ -39,7 +39,7 @@ class Distribution(ShortRepr):
     """Induced velocity [m/s], positive down through the disk; the flight's own part along the shaft is not in it."""
 
     def to_dict(self) -> dict[str, Any]:
-        """What `solve --json --distribution` prints: degrees, lists [r][psi], and None where there is no `cm`."""
+        """The record that `solve --json --distribution` prints: angles in degrees, lists [r][psi], None for no `cm`."""
         moments = self.cm.astype(object)
         moments[np.isnan(self.cm)] = None
         return {
@@ -54,7 +54,7 @@ class Distribution(ShortRepr):
         }
 
     def table(self) -> str:
-        """Mean and greatest lift [N/m] at a few radii, and where the blade then is."""
+        """Mean and largest lift [N/m] at a few radii, and the azimuth [°] of the largest."""
         lines = [f"{'r/R':>6}{'mean N/m':>10}{'max N/m':>10}{'at ψ':>7}"]
         for i in dict.fromkeys(int(np.argmin(np.abs(self.r - r))) for r in _SHOWN):
             lift = self.lift[i]

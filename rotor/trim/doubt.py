@@ -52,7 +52,7 @@ class DoubtRow(Uncertain):
 
     @property
     def size_words(self) -> str:
-        """The size with its unit, as `5 %`."""
+        """The uncertainty of the input with its unit, for example `5 %`."""
         return f"{self.size:g} {self.unit}".rstrip()
 
 
@@ -138,7 +138,7 @@ class Doubt:
 
     @property
     def sentence(self) -> str:
-        """`Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure.`"""
+        """The bands in words, for example `Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure.`"""
         return self.in_words("It")
 
     def in_words(self, design: str) -> str:
@@ -150,7 +150,7 @@ class Doubt:
 
     @property
     def saving_words(self) -> str:
-        """`saves 1.8 ± 0.7 %: sure`; empty without a change."""
+        """The saving in words, for example `saves 1.8 ± 0.7 %: sure`; empty without a change."""
         change, within = self.change, self.change_band_percent
         if change is None or within is None or not self.against:
             return ""
@@ -163,7 +163,7 @@ class Doubt:
         return tag("p", self.sentence) + doubt_table(self).html()
 
     def record(self) -> dict[str, object]:
-        """For `solve --doubt --json`."""
+        """The bands as `solve --doubt --json` prints them: powers and bands [W]."""
         return {
             "power_w": self.power,
             "total_w": self.band,
@@ -183,7 +183,7 @@ class Doubt:
 
 
 def doubt_table(doubt: Doubt) -> Table:
-    """What the bands consist of."""
+    """The contributions to the bands, one row for each uncertain input."""
     symbol, size = power_unit(doubt.power, doubt.band)
     rows: list[tuple[CellValue, ...]] = [
         (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size) for row in doubt.rows
@@ -330,7 +330,7 @@ def with_other_inflow(design: Design) -> Design:
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _OtherTrim:
     design: Design
     start: Guess = field(compare=False)
     """Of the trim of the same design."""
@@ -338,11 +338,11 @@ class _Asked:
 
 def _powers_with_other_inflow(solution: Solution) -> Array | None:
     """By `PARTS` [W]; None where it does not trim."""
-    return _powers(_Asked(with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)))
+    return _powers(_OtherTrim(with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)))
 
 
 @lru_cache(maxsize=64)
-def _powers(asked: _Asked) -> Array | None:
+def _powers(asked: _OtherTrim) -> Array | None:
     other = solve(asked.design, asked.start, FEW_DIGITS)
     return by_part(other.power) if other.converged else None
 

@@ -61,7 +61,7 @@ class HubLoads:
         return (min(changes), max(changes)) if pairs else None
 
     def record(self) -> dict[str, Any]:
-        """For `solve --json`."""
+        """The loads as `solve --json` prints them: [N], [N m] and the index [%]."""
         unit = {"f": "n", "m": "nm"}
         return {
             "per_rev": self.per_rev,

@@ -97,12 +97,12 @@ class Guess:
 
     @property
     def factors(self) -> Factors | None:
-        """Factors for the first steps."""
+        """LU factors of a Jacobian for the first steps; None without them."""
         return None if self.box is None else self.box.factors
 
     @property
     def array(self) -> Array:
-        """All its numbers, flat."""
+        """All numbers of the guess in one vector."""
         others = (part.ravel() for part in (self.elastic, self.bending, self.inflow) if part is not None)
         return np.concatenate([self.state.array(), *others])
 
@@ -116,7 +116,7 @@ class Guess:
         return replace(self, state=TrimState.from_array(numbers[: len(STATE_NAMES)]), **parts)
 
     def ahead(self, before: "Guess", steps: float) -> "Guess":
-        """So many steps ahead on the secant that leads from an earlier trim to this one; itself where they differ in
+        """The guess `steps` ahead on the secant from an earlier trim to this one; itself where they differ in
         kind."""
         here, there = self.array, before.array
         if len(here) != len(there) or self.inflow_kind != before.inflow_kind:
@@ -134,12 +134,12 @@ class LinearisedTrim:
 
     @cached_property
     def elements(self) -> BladeElements:
-        """The blade elements there."""
+        """The blade elements at the solution."""
         return (hover_elements if self.problem.design.hovering else elements_of)(self.problem, self.point)
 
     @cached_property
     def stalled_moment(self) -> float:
-        """Part of the lift's moment that stalled sections carry, by the azimuths of the trim alone."""
+        """Part of the lift moment that stalled sections carry [-], on the azimuths of the trim."""
         return own_stalled_parts(self.problem, self.elements)[1]
 
 
@@ -167,7 +167,7 @@ class TrimResult:
 
     @property
     def state(self) -> TrimState:
-        """In forward flight."""
+        """Controls, flapping and inflow of the iterate in forward flight."""
         return state_of(self.point.system.structure, self.point.x)
 
     @property

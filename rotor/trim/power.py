@@ -64,7 +64,7 @@ class PowerBudget:
 
     @property
     def total(self) -> float:
-        """Main rotor and tail rotor [W]."""
+        """Power of main rotor and tail rotor together [W]."""
         return self.main_rotor + self.tail
 
 
@@ -79,7 +79,7 @@ class HubMoment:
 
     @property
     def size(self) -> float:
-        """Of both together [N m]."""
+        """Magnitude of the hub moment [N m]."""
         return math.hypot(self.roll, self.pitch)
 
 

@@ -100,7 +100,7 @@ class DiskFields(OnDisk, ShortRepr):
 
     @property
     def pitch_of_alpha(self) -> Array:
-        """θ with what the flow at three quarters of the chord adds to α, see `display.pitch_of_alpha`."""
+        """Pitch θ plus the part of α from the flow at three-quarter chord [rad], see `display.pitch_of_alpha`."""
         return self.theta if self.find_apparent is None else pitch_of_alpha(self)
 
     @property
@@ -140,7 +140,7 @@ class ElasticTwist(ShortRepr):
 
 @dataclass(frozen=True, eq=False)
 class Deflections:
-    """How far a blade is bent off the straight blade that flaps as the trim says, by coning and first harmonic."""
+    """Bending of a blade, measured from a straight blade with the coning and first-harmonic flapping of the trim."""
 
     r: Array
     """Stations over R, (stations,), from the hinge, or where the blade is held, to the tip."""
@@ -150,7 +150,7 @@ class Deflections:
     """v from the steadily lagged blade [m], in the same waves."""
 
     def at(self, r: Array, psi: float) -> tuple[Array, Array]:
-        """Up and forward [m] at stations r/R of a blade at ψ [rad], (stations,) both; 0 inboard of the root."""
+        """Deflection up and forward [m] at stations r/R of a blade at ψ [rad], (stations,) each; 0 inside the root."""
         waves = waves_at(self.up.shape[1], np.array([psi]))[:, 0]
         up, forward = (np.interp(r, self.r, deflection @ waves, left=0.0) for deflection in (self.up, self.forward))
         return up, forward
@@ -158,7 +158,7 @@ class Deflections:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """What is shown of a solution beside its numbers, on at least the azimuths that the models ask for."""
+    """Fields, areas and caveats of a solution, on at least the azimuths that the models ask for."""
 
     disk: DiskFields
     areas: tuple[float, float, float, float, float]
@@ -247,12 +247,12 @@ class Solution:
 
     @property
     def stalled_thrust(self) -> float:
-        """Part of the thrust that stalled sections carry [-]; negative where they press down."""
+        """Part of the thrust that stalled sections carry [-]; negative if their lift is downward."""
         return self.shown.areas[2]
 
     @property
     def stalled_moment(self) -> float:
-        """Part of the lift's moment about the hub, Σ r dT, that they carry."""
+        """Part of the lift moment about the hub, Σ r dT, that stalled sections carry [-]."""
         return self.shown.areas[3]
 
     @property
@@ -263,7 +263,7 @@ class Solution:
 
     @property
     def elastic(self) -> ElasticTwist | None:
-        """None for a blade that is rigid in torsion."""
+        """Elastic twist and control loads; None for a blade that is rigid in torsion."""
         return self.shown.elastic
 
     @property
@@ -365,7 +365,7 @@ class Solution:
 
 
 def require_solution(given: object) -> Solution:
-    """What is given, or TypeError with one sentence when it is no solution."""
+    """The argument, if it is a solution; TypeError with one sentence otherwise."""
     if not isinstance(given, Solution):
         raise TypeError(f"solution is {given!r:.80}: give what rotor.solve returns")
     return given

@@ -107,7 +107,7 @@ def is_suspect_branch(found: Analysis) -> bool:
 
 
 def guess_of(design: Design, start: Start) -> Guess | None:
-    """Where a trim begins; None when an earlier solution did not converge, or hovered and this design does not."""
+    """The start of a trim; None if the earlier solution did not converge, or hovered and this design does not."""
     if not isinstance(start, Solution):
         return start
     if not start.converged or (start.design.hovering and not design.hovering):

@@ -34,7 +34,7 @@ HIGHEST_TIP = 3
 
 @dataclass(frozen=True)
 class FlownCase:
-    """One condition of a test."""
+    """One measured condition of a flight or wind-tunnel test."""
 
     test: str
     """Name of the set on the command line."""
@@ -155,14 +155,14 @@ class CurveAgreement:
         return abs(wave_amplitude(self.waves, n) - measured) / abs(measured)
 
     def to_dict(self) -> dict[str, Any]:
-        """For `validate --json`."""
+        """The agreement as `validate --json` prints it."""
         names = ("quantity", "r", "correlation", "rms", "measured_rms", "mean", "measured_mean")
         waves = {"harmonics": self.waves.tolist(), "measured_harmonics": self.measured_waves.tolist()}
         return {"test": self.case.test, "case": self.case.name} | {name: getattr(self, name) for name in names} | waves
 
 
 def measured_curves() -> tuple[MeasuredCurve, ...]:
-    """All of them, in the order of `CASES`."""
+    """All measured airload curves, in the order of `CASES`."""
     return tuple(curve for case in CASES for curve in _curves(case))
 
 
@@ -271,7 +271,7 @@ def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement
 
 
 def agreement(measured: MeasuredCurve, solution: Solution) -> CurveAgreement:
-    """A measured curve beside that of a solution."""
+    """Agreement of a measured curve with the curve that a solution gives."""
     theirs, computed = measured.waves, harmonics(*computed_curve(measured, solution), measured.highest)
     wave, other = computed[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
     size = math.sqrt((wave @ wave) * (other @ other))

@@ -95,7 +95,7 @@ class MeasuredSet:
 
     @property
     def unit(self) -> str:
-        """That of errors: of a change, which is in per cent itself and may be small, the error is the difference."""
+        """Unit of errors: `%`, or `points` for a change that is itself in per cent, whose error is the difference."""
         return "points" if self.against else "%"
 
     def allows(self, measured: float, computed: float) -> bool:
@@ -176,7 +176,7 @@ class Comparison:
 
     @property
     def judged(self) -> tuple[ComparedPoint, ...]:
-        """Points that count."""
+        """The points within the ranges that count."""
         return tuple(point for point in self.points if self.measured.counts({**point.given, **point.measured}))
 
     @property
@@ -217,7 +217,7 @@ class Comparison:
         return None if self.measured.indicative else all(point.passed for point in self.points)
 
     def to_dict(self) -> dict[str, Any]:
-        """For `validate --json`."""
+        """The comparison as `validate --json` prints it."""
         rows = self.measured
         shown = ("given", "measured", "computed", "error_percent", "within_scatter", "judged")
         return {
@@ -239,7 +239,7 @@ class Comparison:
 
 
 def compare(measured: MeasuredSet, inflow: str | None = None) -> Comparison:
-    """Trim at every point of a set; `inflow` in hover or in forward flight by name, by default that of `flight`."""
+    """Trim the rotor at every point of a set; `inflow`: a model by name, by default that of the preset `flight`."""
     base = _base(measured, inflow)
     points = tuple(compare_point(measured, point, base) for point in measured.points)
     name = base.models.hover_inflow if measured.kind == "hover" else base.models.inflow

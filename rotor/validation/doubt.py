@@ -143,7 +143,7 @@ def coverage(points: Iterable[tuple[PointAndBand, Sequence[float]]]) -> tuple[fl
 
 
 def doubt_set() -> TrustSet:
-    """For the trust page."""
+    """The set of the trust page: measured powers and the bands of the computed ones."""
     words, points, sizes = description(NAME), points_and_bands(), shipped_sizes()
     rows: list[TrustRow] = []
     series: list[Points] = []

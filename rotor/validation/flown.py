@@ -189,7 +189,7 @@ def tail_pitch(solution: Solution) -> float:
 
 
 def flown_set() -> TrustSet:
-    """For the trust page."""
+    """The set of the trust page: powers and control angles measured in flight."""
     words, powers, angles = description(POWERS), list(flown_powers()), flown_angles()
     gazelle, bo105 = (100.0 * shape_errors(*_trimmed(powers, rotor))[0] for rotor in ("gazelle", "bo105"))
     return words.page(
@@ -271,7 +271,7 @@ def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple
 
 
 def gazelle_set() -> TrustSet:
-    """For the trust page: c_l as measured, and with the dynamic pressure."""
+    """The set of the trust page: section lift of the Gazelle, as c_l and times the dynamic pressure."""
     solutions = {case.name: solve(case.design()).require() for case in airloads.CASES if case.test == AIRLOADS}
     curves = [curve for curve in airloads.measured_curves() if curve.case.test == AIRLOADS]
     agreements = [airloads.agreement(curve, solutions[curve.case.name]) for curve in curves]

@@ -61,12 +61,12 @@ def cases() -> tuple[airloads.FlownCase, airloads.FlownCase]:
 
 
 def curves() -> dict[tuple[str, str], airloads.MeasuredCurve]:
-    """What was measured, by case and quantity."""
+    """The measured curves by case and quantity."""
     return {(curve.case.name, curve.quantity): curve for curve in airloads.measured_curves() if curve.case.test == SET}
 
 
 def hart2_set() -> TrustSet:
-    """For the trust page."""
+    """The set of the trust page: airloads, twist and flapping of HART II."""
     solutions = {case.name: solve(case.design()).require() for case in cases()}
     agreements = {key: airloads.agreement(curve, solutions[key[0]]) for key, curve in curves().items()}
     normal = [agreements[name, "cn_m2"].correlation for name in solutions]

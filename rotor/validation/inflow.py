@@ -44,7 +44,7 @@ class MeasuredInflow:
 
 @dataclass(frozen=True)
 class InflowAgreement:
-    """One model at one advance ratio."""
+    """Agreement of one inflow model with measured inflow at one advance ratio."""
 
     mu: float
     model: str

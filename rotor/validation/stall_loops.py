@@ -30,7 +30,7 @@ _ENDS = ((90.0, 0.0, 1.29, -0.32), (180.0, 0.0, 1.8, 0.0))
 
 @dataclass(frozen=True, eq=False)
 class StallLoop:
-    """One run: C_n and C_m at the points measured."""
+    """C_n and C_m at the measured points of one run."""
 
     run: str
     alpha: Array
@@ -44,7 +44,7 @@ class StallLoop:
 
     @property
     def motion(self) -> str:
-        """In words."""
+        """The motion of the section in words: amplitude and mean angle."""
         low, high = np.degrees([self.alpha.min(), self.alpha.max()])
         return f"by {0.5 * (high - low):.0f}° about {0.5 * (high + low):.0f}°"
 

@@ -38,7 +38,7 @@ VERDICTS: dict[Verdict, str] = {
 
 @dataclass(frozen=True)
 class TrustRow:
-    """One comparison."""
+    """One comparison of a computed with a reference value: a row of the trust page."""
 
     set: str
     """Name of its set, which is that of its page in docs/validation."""

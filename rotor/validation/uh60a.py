@@ -190,7 +190,7 @@ def constants_set() -> TrustSet:
 
 @dataclass(frozen=True, eq=False)
 class PitchLinkLoad:
-    """One advance ratio."""
+    """Measured and computed pitch-link load at one advance ratio."""
 
     mu: float
     measured: airloads.MeasuredCurve
@@ -200,7 +200,7 @@ class PitchLinkLoad:
     """[N], (azimuths,)"""
     torsion_alone: Array
     """Computed of a blade that twists but does not bend."""
-    beside: airloads.CurveAgreement
+    agreement: airloads.CurveAgreement
 
     @property
     def half_peaks(self) -> tuple[float, float, float]:
@@ -226,7 +226,7 @@ def pitch_link_loads() -> Iterator[PitchLinkLoad]:
 
 
 def pitch_link_set() -> TrustSet:
-    """For the trust page."""
+    """The set of the trust page: pitch-link loads of the UH-60A."""
     loads = list(pitch_link_loads())
     errors = [computed / measured - 1.0 for measured, computed, _ in (load.half_peaks for load in loads)]
     return description(airloads.PITCH_LINK).page(
@@ -243,8 +243,8 @@ def _load_rows(loads: Sequence[PitchLinkLoad]) -> Iterator[TrustRow]:
         measured, computed, _ = load.half_peaks
         yield words.share(f"Half peak to peak, µ {load.mu:g}", computed / measured - 1.0, 0.02, digits=0)
     for n in (1, 2):
-        late = [load.beside.late_deg(n) for load in loads]
-        mean = float(np.mean([load.beside.ratio(n) for load in loads]))
+        late = [load.agreement.late_deg(n) for load in loads]
+        mean = float(np.mean([load.agreement.ratio(n) for load in loads]))
         shown = f"{100 * mean:+.0f} %, phase {min(late):+.0f} to {max(late):+.0f}°"
         yield words.row(f"{n}/rev, mean of six speeds", shown, mean, 0.02)
 
@@ -265,8 +265,10 @@ def _amplitude_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
     mu = [load.mu for load in loads]
     series: list[Series] = []
     for n in LOAD_HARMONICS:
-        theirs, computed = ([1e-3 * load.beside.amplitude(n, measured=of) for load in loads] for of in (True, False))
-        series.append(Points(f"{n}/rev, measured", mu, theirs, n))
+        measured, computed = (
+            [1e-3 * load.agreement.amplitude(n, measured=of) for load in loads] for of in (True, False)
+        )
+        series.append(Points(f"{n}/rev, measured", mu, measured, n))
         series.append(Line("computed", mu, computed, n))
     return Chart("Harmonics of the pitch-link load", Axis("advance ratio µ"), Axis("amplitude [kN]"), tuple(series))
 
@@ -289,9 +291,8 @@ def _load_points(loads: Sequence[PitchLinkLoad]) -> tuple[tuple[str, ...], ...]:
         measured, computed, rigid = (f"{1e-3 * value:.2f}" for value in load.half_peaks)
         rows.append((f"{load.mu:g}", "half peak to peak", measured, "", computed, "", rigid))
         for n in LOAD_HARMONICS:
-            theirs, computed = (
-                (f"{1e-3 * load.beside.amplitude(n, measured=of):.2f}", f"{load.beside.phase_deg(n, measured=of):.0f}")
-                for of in (True, False)
-            )
-            rows.append((f"{load.mu:g}", f"{n}/rev", *theirs, *computed, ""))
+            fit = load.agreement
+            pairs = ((fit.amplitude(n, measured=of), fit.phase_deg(n, measured=of)) for of in (True, False))
+            waves = (text for size, phase in pairs for text in (f"{1e-3 * size:.2f}", f"{phase:.0f}"))
+            rows.append((f"{load.mu:g}", f"{n}/rev", *waves, ""))
     return tuple(rows)

@@ -238,11 +238,11 @@ def test_the_chosen_actuator_is_judged_first_and_then_all_others():
 def test_the_newest_tasks_are_answered_one_at_a_time_and_serve_every_page():
     pool, heard = FakePool(), []
     fake: Any = pool
-    answers = PoolAnswers(fake, 5, lambda: heard.append(answers.owes()))
-    assert not answers.owes()
+    answers = PoolAnswers(fake, 5, lambda: heard.append(answers.is_waiting()))
+    assert not answers.is_waiting()
     first, second, newest = map(asked, ("first", "second", "newest"))
     answers.ask((first, second), 0.0)
-    assert answers.owes()
+    assert answers.is_waiting()
     until(lambda: pool.asked == [first])
     answers.ask((newest, second), 0.0)
     time.sleep(0.1)
@@ -253,13 +253,13 @@ def test_the_newest_tasks_are_answered_one_at_a_time_and_serve_every_page():
     until(lambda: pool.asked[-1] == second)
     pool.end("two")
     assert (answers.answer(newest), answers.answer(second)) == ("The process ended.", "two")
-    assert (heard, answers.owes()) == ([True] * 3, False)  # Until an answer is told, it is owed.
+    assert (heard, answers.is_waiting()) == ([True] * 3, False)  # Until an answer is told, it is owed.
     assert PoolAnswers(fake, 5, lambda: None).answer(first) == "one"
     answers.ask((asked("never ends"),), 0.0)
     until(lambda: pool.asked[-1] == asked("never ends"))
-    assert answers.owes()
+    assert answers.is_waiting()
     answers.stop()
-    assert (pool.stopped, answers.owes()) == ([(asked("never ends"), True)], False)
+    assert (pool.stopped, answers.is_waiting()) == ([(asked("never ends"), True)], False)
 
 
 def test_a_task_ended_after_its_time_is_begun_again_by_itself():
@@ -298,7 +298,7 @@ def test_at_rest_a_task_runs_to_its_end_and_the_next_waits():
     until(lambda: pool.asked == [first])
     answers.rest(True)
     pool.end("one")
-    assert (answers.answer(first), pool.asked, answers.owes()) == ("one", [first], False)
+    assert (answers.answer(first), pool.asked, answers.is_waiting()) == ("one", [first], False)
     answers.rest(False)
     assert pool.asked == [first, second]
 

@@ -189,7 +189,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("power", 'data-report="total-power">#\\s?kW', page.partition("</article>")[0])
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
-    for words in (*part.over, *part.asked):
+    for words in (*part.over, *part.required):
         (name,) = [limit.name for limit in verdict.broken if words.startswith(f"{limit_words(limit.name)} ")]
         read(f"limit {name}", f"({NUMBER}) of (?:at least )?{NUMBER} ", words.replace("\u2009", ""))
     assert not {limit.split()[0] for limit in part.over} & {"voltage", "field"}
@@ -454,7 +454,7 @@ def test_every_value_of_explore_lies_inside_its_band_and_has_its_word_and_colour
     parts = [part for part in shown["power"].parts if part.name in ("Induced", "Profile", "Tail")]
     assert len([part for part in parts if _WITHIN.search(part.title)]) == 3
     assert " ± " in shown["power"].why
-    assert shown["power"].held == "Three of four measured powers lie in such a band"
+    assert shown["power"].coverage == "Three of four measured powers lie in such a band"
     if bends:
         low, high = map(float, re.findall(r"[\d.]+", shown["vibration"].band))
         assert low <= float(shown["vibration"].index) <= high

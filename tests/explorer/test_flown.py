@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from explorer.charts.measured import FlownPowers, source_of
-from explorer.charts.probe_measured import beside_measured, correlation, measured_panel
+from explorer.charts.probe_measured import airload_comparison, correlation, measured_panel
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.stand import condition_of
 from explorer.model.units import SI
@@ -63,19 +63,19 @@ class TestFlights:
 class TestAirloads:
     def test_the_nearest_radius_and_condition(self):
         fast = solve(replace(GAZELLE, advance_ratio=0.33).design())
-        beside = beside_measured(fast, 0.9)
+        beside = airload_comparison(fast, 0.9)
         assert beside is not None
         assert (beside.case.name, beside.at_test) == ("FC2", False)
         radii = {0.75: 0.75, 0.9: 0.88, 1.0: 0.97}
         for r, measured in radii.items():
-            there = beside_measured(fast, r)
+            there = airload_comparison(fast, r)
             assert {curve.quantity: curve.r for curve, _, _ in there.curves} == {"cl": measured, "cl_u2": measured}
         assert 'data-do="flown" data-value="FC2"' in measured_panel(beside, 1.0)
 
     @pytest.mark.parametrize("case", ["BL", "MN"])
     def test_hart_2_shows_loads_and_twist_of_the_case_that_is_set(self, case: str):
         solution = solve(at_test("hart2", case).design())
-        beside = beside_measured(solution, 0.87)
+        beside = airload_comparison(solution, 0.87)
         assert beside is not None
         assert (beside.case.name, beside.at_test, beside.blade) == (case, True, True)
         assert [curve.quantity for curve, _, _ in beside.curves] == ["cn_m2", "cm_m2", "tip_twist_deg", "tip_flap"]
@@ -85,7 +85,7 @@ class TestAirloads:
         assert "nan" not in html
 
     def test_another_blade_is_named_and_not_correlated(self):
-        beside = beside_measured(solve(replace(FC1, law="linear", linear=-12.0).design()), 0.75)
+        beside = airload_comparison(solve(replace(FC1, law="linear", linear=-12.0).design()), 0.75)
         assert beside is not None
         html = measured_panel(beside, 0.0)
         assert "Computed with another twist." in html
@@ -93,14 +93,14 @@ class TestAirloads:
 
     def test_the_correlation_is_that_of_the_waves_without_the_mean(self):
         psi = np.linspace(0.0, 2.0 * math.pi, 72, endpoint=False)
-        beside = beside_measured(solve(FC1.design()), 0.75)
+        beside = airload_comparison(solve(FC1.design()), 0.75)
         measured = MeasuredCurve(beside.case, "cl_u2", 0.75, psi, 0.3 + np.cos(psi) + 5.0 * np.cos(20.0 * psi))
         assert correlation(measured, psi, 7.0 + 2.0 * np.cos(psi)) == pytest.approx(1.0)
         assert correlation(measured, psi, np.cos(psi - math.pi / 3.0)) == pytest.approx(0.5)
 
     @pytest.mark.parametrize("inputs", [OPENING, with_rotor(OPENING, "bo105"), replace(GAZELLE, advance_ratio=0.0)])
     def test_none_in_hover_and_for_a_rotor_without(self, inputs: Inputs):
-        assert beside_measured(solve(inputs.design()), 0.75) is None
+        assert airload_comparison(solve(inputs.design()), 0.75) is None
 
 
 def test_the_probe_shows_the_pitch_link_load_of_the_uh60a():
@@ -108,7 +108,7 @@ def test_the_probe_shows_the_pitch_link_load_of_the_uh60a():
     inputs = at_test("uh60a", "µ 0.30")
     assert inputs.advance_ratio == 0.3
     solution = solve(inputs.design())
-    beside = beside_measured(solution, 0.75)
+    beside = airload_comparison(solution, 0.75)
     assert beside is not None
     assert beside.at_test
     ((measured, _, computed),) = beside.curves
@@ -116,7 +116,7 @@ def test_the_probe_shows_the_pitch_link_load_of_the_uh60a():
     assert "Pitch link [N]" in measured_panel(beside, 0.0)
     assert validated(solution).words == "pitch-link load measured"
     rigid = replace(inputs.design(), models=replace(inputs.design().models, elastic_twist=False))
-    assert beside_measured(solve(rigid), 0.75) is None
+    assert airload_comparison(solve(rigid), 0.75) is None
     assert measured.highest == 10
 
 

@@ -1,7 +1,7 @@
 """A page that is idle shows what workers answered, too."""
 
 from explorer.app import App
-from explorer.views.strip import bands_asked
+from explorer.views.strip import bands_call
 from tests.tools.visitor import arrived, ran
 
 
@@ -12,7 +12,7 @@ def test_wholly_idle_the_curve_of_power_has_its_band(app: App):
         await visitor.idle()
         (session,) = app.sessions
         now = session.page.now()
-        assert isinstance(now.answers.get(bands_asked(now)), tuple)
+        assert isinstance(now.answers.get(bands_call(now)), tuple)
         power = next(chart for chart in visitor.frame["strip"] if chart["name"] == "power")
         assert power["chart"]["series"][0]["kind"] == "band"
         await visitor.close()

@@ -338,7 +338,7 @@ def test_an_answer_that_comes_as_the_lecture_ends_shows_nothing(monkeypatch: pyt
         return step_record(*of)
 
     monkeypatch.setattr(lecture_panel, "step_record", slow)
-    answer, end = Thread(target=panel._facts_came), Thread(target=panel.end)
+    answer, end = Thread(target=panel._facts_received), Thread(target=panel.end)
     answer.start()
     assert reading.wait(60.0)
     end.start()

@@ -24,9 +24,9 @@ from rotor.actuator import (
     default_placement,
     effect,
     find_actuator,
+    harmonic_share,
     install,
     programmes,
-    steady_room,
     tip_amplitude,
 )
 from rotor.actuator.harmonic import bending
@@ -181,9 +181,9 @@ def test_the_room_that_a_steady_voltage_leaves():
     assert FittedBlade(installed, (0.0,)).whole == pytest.approx(math.degrees(tip_amplitude(installed)))
     assert bending(make_design(mu=0.3, twist="builtin", pitch_per_rev="3:1:0", off="dynamic-stall")) == BENDING
     low, high = -500.0, 1500.0
-    assert steady_room(installed, (0.0,)) == 1.0  # Not driven: about the middle.
-    assert steady_room(installed, (high,)) == steady_room(installed, (low,)) == 0.0
-    assert steady_room(installed, (250.0,)) == pytest.approx(0.75)
+    assert harmonic_share(installed, (0.0,)) == 1.0  # Not driven: about the middle.
+    assert harmonic_share(installed, (high,)) == harmonic_share(installed, (low,)) == 0.0
+    assert harmonic_share(installed, (250.0,)) == pytest.approx(0.75)
 
 
 def test_an_effect_is_that_of_two_trims():

@@ -10,8 +10,8 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import SI
 from explorer.views.page_state import MoveSliders, OpenPanels, PageState
-from explorer.views.prices import PRICES, edges_asked, prices, switch_stall
-from explorer.views.waterfall import costs, steps_asked, waterfall_chart
+from explorer.views.prices import PRICES, prices, stall_edge_work, switch_stall
+from explorer.views.waterfall import costs, waterfall_chart, waterfall_work
 from rotor import make_design, solve
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.study.series import WaterfallStep, waterfall
@@ -31,7 +31,7 @@ def known(*off: str) -> PageState:
     solution = solve(with_switches(DESIGN, off))
     state = SessionState(Inputs(), ViewState(), solution, solution, None)
     now = PageState(Inputs(), solution.design, state, ui=OpenPanels(disk=True))
-    work = (*steps_asked(now), *edges_asked(now))
+    work = (*waterfall_work(now), *stall_edge_work(now))
     return replace(now, answers=dict(zip((one.key for one in work), (steps(), EDGES), strict=False)))
 
 
@@ -72,7 +72,7 @@ def test_with_other_effects_off_there_is_no_cost_and_without_stall_no_edge():
     assert prices(known("swirl"))["prices"]["reverse_flow"].lines == ()
     without = known("stall")
     shown = prices(without)["prices"]["stall"]
-    assert edges_asked(without) == ()
+    assert stall_edge_work(without) == ()
     assert shown.press == "With stall"
     assert len(shown.lines) == 1
 

@@ -13,7 +13,7 @@ from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.units import AVIATION, SI
 from explorer.text.readout import needs
-from explorer.views.actuated import actuated_blade, doubt_here
+from explorer.views.actuated import actuated_blade, flight_doubt
 from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.flight import earns_state
 from explorer.workers.call import at_once
@@ -89,7 +89,7 @@ def test_a_report_has_the_section_where_an_actuator_was_chosen():
 
 def test_the_headline_holds_the_mass_on_board_as_the_page_says_it():
     now = actuate(Inputs(law="builtin", inflow="drees"), actuator=ActuatorInputs(drives=(77.0,) * 5))
-    task = doubt_here(now)
+    task = flight_doubt(now)
     assert task is not None
     now = replace(now, answers={task.key: at_once(task.run(lambda: None))})
     driven, card, state = actuated_blade(now), ACTUATOR_CARD.view(now)["assessed"], now.state

@@ -8,7 +8,7 @@ from explorer.charts.measured import MeasuredChart
 from explorer.export.provenance import condition_line
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.session_state import Pinned
-from explorer.model.stand import TRIM_TITLES, StandInputs, load_of, measured_conditions, stand_like
+from explorer.model.stand import TRIM_TITLES, StandInputs, equivalent_stand, load_of, measured_conditions
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
 from explorer.widgets.controls import DesignControls
@@ -24,7 +24,7 @@ FORWARD = replace(with_rotor(OPENING, "xv15"), advance_ratio=XV15.advance_ratio,
 
 def test_the_wind_tunnel_begins_with_what_the_flight_had():
     flight = solve(Inputs(law="builtin", advance_ratio=0.2, download=False).design())
-    stand = stand_like(flight)
+    stand = equivalent_stand(flight)
     tested = solve(Inputs(law="builtin", advance_ratio=0.2, stand=stand).design())
     assert tested.power.main_rotor == pytest.approx(flight.power.main_rotor, rel=0.02)
     assert load_of(tested, "thrust_n") == pytest.approx(flight.ct * flight.design.thrust_unit, rel=2e-3)

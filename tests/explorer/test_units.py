@@ -10,7 +10,7 @@ import viser
 
 from explorer.model.inputs import ROWS, Inputs
 from explorer.model.sliders import SLIDERS, limits, slider
-from explorer.model.units import AVIATION, HORSEPOWER, KNOT, SI, UNITS, WATT, form_of, meant, shown, units_of
+from explorer.model.units import AVIATION, HORSEPOWER, KNOT, SI, UNITS, WATT, form_of, shown, slider_input, units_of
 from explorer.text import readout
 from explorer.text.design_words import flight_name
 from explorer.widgets.controls import DesignControls
@@ -59,11 +59,11 @@ def test_an_input_is_itself_after_other_units(name: str):
     row = ROWS[name]
     for value in np.linspace(*limits(name), 173):
         kept = round(float(value), 6)
-        assert meant(row, shown(row, kept, AVIATION), AVIATION) == kept
+        assert slider_input(row, shown(row, kept, AVIATION), AVIATION) == kept
     low, high = limits(name)
     for units in UNITS.values():
         form = slider(name, units)
-        assert low <= meant(row, form.low, units) <= meant(row, form.high, units) <= high
+        assert low <= slider_input(row, form.low, units) <= slider_input(row, form.high, units) <= high
     assert slider("linear", AVIATION) is SLIDERS["linear"]
 
 
@@ -91,7 +91,7 @@ def test_a_model_rotor_has_watts_and_a_propeller_climbs():
         assert (units_of(title, uh60a), small.power[0].symbol) == (units, "W")
         assert (small.other_watts(233.0), SI.other_watts(149e3)) == ("0.31 hp", "200 hp")
         assert (small.watts(100.2), small.mass) == ("100 W", units.mass)
-        assert meant(ROWS["climb_m_s"], slider("climb_m_s", small, model).high, small) == pytest.approx(100.0)
+        assert slider_input(ROWS["climb_m_s"], slider("climb_m_s", small, model).high, small) == pytest.approx(100.0)
     for ideal, symbol in ((998.0, "W"), (1002.0, "kW")):
         weight = (ideal * math.sqrt(2.0 * 1.225 * math.pi * model.rotor.radius**2)) ** (2.0 / 3.0)
         assert units_of("SI", replace(model, mass=weight / 9.80665)).power[0].symbol == symbol

@@ -21,10 +21,10 @@ from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.inset import blade_inset
 from explorer.views.line import line, line_text
 from explorer.views.page_state import HeldStation, OpenPanels, PageState, Panel, PanelWork
-from explorer.views.power import held_power, power_card
-from explorer.views.strip import bands_asked, remember_ranges, strip
+from explorer.views.power import power_card, station_power
+from explorer.views.strip import bands_call, remember_ranges, strip
 from explorer.views.waterfall import WATERFALL
-from explorer.views.worth import slopes_asked, twist_slopes, worth
+from explorer.views.worth import slopes_work, twist_slopes, worth
 from explorer.workers.call import at_once
 from rotor import doubt
 from rotor.trim.solution import Solution
@@ -149,7 +149,7 @@ class TestWhileADragGoesOn:
 
     def test_slopes_of_the_flight_stay_stale_until_they_are_known(self):
         inputs = replace(OPENING, inflow="uniform")
-        rest = known(now_at(inputs), *slopes_asked(now_at(inputs)))
+        rest = known(now_at(inputs), *slopes_work(now_at(inputs)))
         during = soon(moved(rest, replace(inputs, mass_t=8.5)))
         rows = worth(during)["worth"]
         assert {name: row.stale for name, row in rows.items()}["mass_t"]
@@ -213,26 +213,26 @@ def test_a_free_rotor_has_the_doubt_of_its_drag_and_no_slopes():
     assert pieces(now)["total-power"].text == f"{lift / drag:.1f}"
     assert pieces(now)["total-power"].title.startswith("Drag times speed")
     assert pieces(now)["within"].text == f" ± {lift / drag * band.band / band.power:.1f}"
-    assert (worth(now)["worth"], slopes_asked(now)) == ({}, ())
+    assert (worth(now)["worth"], slopes_work(now)) == ({}, ())
 
 
 def test_the_band_of_the_curve_is_asked_once_for_all_speeds():
     here, faster, heavier = (
-        bands_asked(now_at(replace(CHANGED, **changes))) for changes in ({}, {"advance_ratio": 0.25}, {"mass_t": 9.0})
+        bands_call(now_at(replace(CHANGED, **changes))) for changes in ({}, {"advance_ratio": 0.25}, {"mass_t": 9.0})
     )
     assert here == faster is not None
     assert here != heavier
-    assert here != bands_asked(now_at(OPENING))  # Without a change, that of the power.
-    assert bands_asked(now_at(STAND)) is None
+    assert here != bands_call(now_at(OPENING))  # Without a change, that of the power.
+    assert bands_call(now_at(STAND)) is None
 
 
 def test_in_the_hand_power_has_the_unit_of_the_page():
     now = replace(now_at(CHANGED, units="Aviation"), station=HeldStation("tip", LeastPower(3.0, 745699.872, held=True)))
-    shown = held_power(replace(now, change=-74569.9872))["hand"]
+    shown = station_power(replace(now, change=-74569.9872))["hand"]
     assert shown.now == pytest.approx(AVIATION.power[0].of(now.state.solution.power.total), abs=0.01)
     assert shown.before == pytest.approx(shown.now + 100.0, abs=0.02)
     assert (shown.best.power, shown.place, shown.optimised) == (1000.0, "tip", None)
-    assert held_power(replace(now, station=None)) == {"hand": None}
+    assert station_power(replace(now, station=None)) == {"hand": None}
 
 
 def test_in_the_hand_a_change_has_its_band_once_it_rests():
@@ -242,9 +242,9 @@ def test_in_the_hand_a_change_has_its_band_once_it_rests():
     now = replace(now, station=HeldStation("tip", None, before), change=change)
     sure = doubt(now.state.solution, before)
     assert sure.change_band is not None
-    assert "±" not in held_power(now)["hand"].change
-    assert held_power(soon(now))["hand"].power.endswith(f" ± {1e-3 * sure.band:.0f} kW")
-    size, within, word = re.findall(r"(.+) ± (.+) kW, (.+)", held_power(soon(now))["hand"].change)[0]
+    assert "±" not in station_power(now)["hand"].change
+    assert station_power(soon(now))["hand"].power.endswith(f" ± {1e-3 * sure.band:.0f} kW")
+    size, within, word = re.findall(r"(.+) ± (.+) kW, (.+)", station_power(soon(now))["hand"].change)[0]
     assert [float(text.replace("−", "-")) for text in (size, within)] == pytest.approx(
         [1e-3 * change, 1e-3 * sure.change_band], abs=0.51
     )

@@ -10,7 +10,7 @@ from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import AVIATION, HORSEPOWER, KILOWATT, SI
 from explorer.views.page_state import PageState
-from explorer.views.waterfall import cost_words, costs, steps_asked, waterfall_chart
+from explorer.views.waterfall import cost_words, costs, waterfall_chart, waterfall_work
 from explorer.views.waterfall import waterfall as shown
 from explorer.workers.call import at_once
 from rotor import Design, make_design, solve
@@ -67,7 +67,7 @@ def now_at(mu: float) -> PageState:
 
 def test_it_gives_way_after_each_trim_and_is_shown_whole_or_not_at_all():
     now = now_at(0.2)
-    (work,) = steps_asked(now)
+    (work,) = waterfall_work(now)
     assert "Computing" in shown(now)["details.waterfall"]
     coming = work.run(lambda: None)
     assert [next(coming) for _ in range(2 * len(SWITCHES))] == [None] * 2 * len(SWITCHES)  # It gives way after each.
@@ -83,7 +83,7 @@ def test_it_gives_way_after_each_trim_and_is_shown_whole_or_not_at_all():
         stale = shown(other)["details.waterfall"]
         assert stale.count("rx-faded") == 1
         assert drawn["details.waterfall"] in stale
-    assert [one.key for one in steps_asked(turned(known))] == [work.key]
+    assert [one.key for one in waterfall_work(turned(known))] == [work.key]
 
 
 def turned(now: PageState) -> PageState:

@@ -18,7 +18,7 @@ from rotor.__main__ import main
 from rotor.command.warm import compile_lags
 from rotor.engine.linearise import jacobian
 from rotor.support import compiled
-from rotor.support.compiled import _watch, compiled_beside, compiling, log_compiling, why_not_kept
+from rotor.support.compiled import _watch, compiled_in_parallel, compiling, log_compiling, why_not_kept
 from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import analyse, solve
 
@@ -270,21 +270,21 @@ class TestBeside:
         return importlib.import_module(name)
 
     def test_what_another_process_compiles_is_waited_for_and_not_compiled_twice(self, made: Any):
-        with compiled_beside(made.compile_it, made.__name__):
+        with compiled_in_parallel(made.compile_it, made.__name__):
             assert made.kernel(1.0) == 2.0
         assert hits(made.kernel) == 1
         assert not _watch.began
         assert compiling() == ""
 
     def test_what_it_does_not_compile_is_compiled_here(self, made: Any):
-        with compiled_beside(made.fail, made.__name__):
+        with compiled_in_parallel(made.fail, made.__name__):
             assert made.kernel(1.0) == 2.0
         assert hits(made.kernel) == 0
 
     def test_there_is_none_where_the_kernels_are_kept(self, made: Any, monkeypatch: pytest.MonkeyPatch):
         made.kernel(1.0)
         monkeypatch.setattr(compiled.subprocess, "Popen", None)
-        with compiled_beside(made.compile_it, made.__name__):
+        with compiled_in_parallel(made.compile_it, made.__name__):
             assert made.kernel(1.0) == 2.0
 
 

@@ -60,7 +60,7 @@ _WORDS = "Ten steps. Each sets the page, asks you to guess and gives the answer.
 
 
 class LecturePanel:
-    """One session's. Buttons act at once; the numbers follow the session."""
+    """The lecture of a session. Buttons act at once; the numbers follow the session."""
 
     def __init__(
         self, context: TabContext, camera: FittedCamera, screen: SceneViews, now: Callable[[], PageState]
@@ -77,9 +77,9 @@ class LecturePanel:
         self._state: SessionState | None = None
         self._showing = threading.Lock()
         """Held from reading the place to sending it: an answer that comes as the lecture ends shows nothing."""
-        self._answers = PoolAnswers(context.pool, 4, self._facts_came)
+        self._answers = PoolAnswers(context.pool, 4, self._facts_received)
         context.resting.append(self._answers.rest)
-        context.owing.append(self._answers.owes)
+        context.waiting.append(self._answers.is_waiting)
         context.leaving.append(self._answers.stop)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
         self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
@@ -90,9 +90,9 @@ class LecturePanel:
         by_hand(self._case, self._case_chosen)
         on = context.bridge.on
         on("lecture", self._pressed)
-        on("story", self._step_asked)
+        on("story", self._step_requested)
         on("guess", self._guessed)
-        on("stop", self._stop_asked)
+        on("stop", self._stop_requested)
         on("wiped", self._wiped)
         bind = context.keyboard.bind
         bind("lecture", self.toggle)
@@ -109,7 +109,7 @@ class LecturePanel:
             self.end()
 
     def go(self, by: int) -> None:
-        """To another step; beyond the last the lecture ends, in Actuate."""
+        """Go to another step; after the last one the lecture ends in Actuate."""
         step = 0 if self.place is None else self.place.step + by
         if step >= len(STEPS):
             before, now = self._leave(), self._screen.on_screen()
@@ -174,7 +174,7 @@ class LecturePanel:
             return
         if self._against is None or state.pin is None or state.pin.inputs != self._against:
             return  # The user has made another design A.
-        against = self._beside(state.inputs)
+        against = self._reference_inputs(state.inputs)
         if against is not None and not same_but_flight(against, self._against):
             self._against = against
             self._context.pin(against)
@@ -207,7 +207,7 @@ class LecturePanel:
         facts = self._answers.answer(_task(step))
         return facts if isinstance(facts, StepFacts) else None
 
-    def _facts_came(self) -> None:
+    def _facts_received(self) -> None:
         """A step's numbers are there: those of the one that stands also put its control where they say."""
         place = self.place
         if place is not None and not self._context.held and self._facts(place.step) is not None:
@@ -234,9 +234,9 @@ class LecturePanel:
         place = self.place or StoryPlace(0)
         facts, step = self._facts(place.step), STEPS[place.step]
         inputs = self._kept(step.begin() if facts is None else facts.stops[place.stop].inputs)
-        return inputs, self._beside(inputs)
+        return inputs, self._reference_inputs(inputs)
 
-    def _beside(self, inputs: Inputs) -> Inputs | None:
+    def _reference_inputs(self, inputs: Inputs) -> Inputs | None:
         """A of the step for these inputs."""
         if self.place is None:
             return None
@@ -308,7 +308,7 @@ class LecturePanel:
             case _:
                 self.end()
 
-    def _step_asked(self, step: Any) -> None:
+    def _step_requested(self, step: Any) -> None:
         """A dot was pressed, or the steps were scrolled."""
         if not self._context.held and self.place is not None and int(step) != self.place.step:
             self.set(min(max(int(step), 0), len(STEPS) - 1))
@@ -321,7 +321,7 @@ class LecturePanel:
             self._guesses[place.step] = int(answer)
             self._change(replace(place, guess=int(answer)))
 
-    def _stop_asked(self, stop: Any) -> None:
+    def _stop_requested(self, stop: Any) -> None:
         place = self.place
         facts = None if place is None else self._facts(place.step)
         if self._context.held or place is None or facts is None:

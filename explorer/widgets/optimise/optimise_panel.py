@@ -89,7 +89,7 @@ class OptimisePanel:
         self._details = gui.add_html("")
         self._best = PoolAnswers(context.pool, 3, context.wake)
         context.resting.append(self._best.rest)
-        context.owing.append(self._best.owes)
+        context.waiting.append(self._best.is_waiting)
         context.leaving.append(self._best.stop)
         self._ranges = gui.add_html("")
         bridge.on("apply", lambda _: self._close(True))

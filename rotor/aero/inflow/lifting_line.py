@@ -142,15 +142,15 @@ class LiftingLineTerms(InflowTerms):
         self.least_azimuths = line.azimuths
 
     def unsteady(self, half_chord: Array) -> "LiftingLineTerms":
-        """With what the lattice's shed lines lack, see `rotor.aero.lifting_line`."""
+        """These terms with the correction of the shed wake, see `rotor.aero.lifting_line.shed_correction`."""
         return LiftingLineTerms(self.line, self.course, tuple(half_chord.tolist()))
 
     def build(self, structure: Structure) -> None:
-        """What the course has of λ_i: (1 − 1/D) λ0."""
+        """Add the mean inflow of the course to U_P: (1 − 1/D) λ0."""
         structure.column(UP, self.names[0], STEADY, 1.0, ONE)
 
     def shapes(self) -> dict[Shape, Array]:
-        """That, (panels,)."""
+        """The mean inflow of the course, (1 − 1/D) λ0, (panels,)."""
         return {self.names[0]: np.full(self.line.panels, mean_share(self.course) * self.course.lambda0)}
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
@@ -159,7 +159,7 @@ class LiftingLineTerms(InflowTerms):
         return Nodes(UP, CIRCULATION, matrix, tolerance, 3.0 * thrust, uniform)
 
     def off_disk(self, points: Array, nodes: Array | None) -> Array:
-        """From the wakes of all blades."""
+        """Mean inflow at points off the disk from the wakes of all blades."""
         assert nodes is not None
         upward = np.broadcast_to([0.0, 0.0, 1.0], points.shape)
         matrix = at_points(self.line, self.course, points, upward).mean(axis=0)
@@ -167,7 +167,7 @@ class LiftingLineTerms(InflowTerms):
         return wake / self.course.mass_flow + mean_share(self.course) * self.course.lambda0
 
     def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
-        """Through the circulation of the load, and through its thrust, λ0 = C_T/2V."""
+        """The matrix of the interface: effect of the load by its circulation and by its thrust, λ0 = C_T/2V."""
         course = replace(self.course, mu_x=flow.mu_x, mu_z=flow.mu_z, lambda0=flow.lambda0, flap_1c=0.0, flap_1s=0.0)
         matrix = mean_influence(self.line, course) * (math.pi / self.line.blades / course.mass_flow)
         gain, slope = circulation_gain(u_t)

@@ -8,7 +8,7 @@ import math
 import numpy as np
 
 from rotor.actuator import tables as actuator_tables
-from rotor.actuator.catalogue import PiezoPly, of_kind
+from rotor.actuator.catalogue import PiezoPly, actuators_of_kind
 from rotor.actuator.installation import install
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.section import HostBlade, default_placement
@@ -29,7 +29,7 @@ PPM, KV_MM = 1e6, 1e-6
 """From strains and volts per metre."""
 
 
-PLIES = of_kind(PiezoPly)
+PLIES = actuators_of_kind(PiezoPly)
 
 
 def figure_5_5() -> Report:

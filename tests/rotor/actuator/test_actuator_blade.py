@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.actuator.catalogue import find_actuator, of_kind
+from rotor.actuator.catalogue import actuators_of_kind, find_actuator
 from rotor.actuator.installation import InstalledActuator, addition, install, with_actuator
 from rotor.actuator.limits import ELEMENTS, bending_moments, fibre_strain, limits
 from rotor.actuator.ply import PiezoPly, balance_mass
@@ -20,7 +20,7 @@ from rotor.files.make_design import make_design, uh60a_rotor
 from rotor.trim.solve import solve
 
 SPEED = 27.0
-MFC = of_kind(PiezoPly)["MFC_P1"]
+MFC = actuators_of_kind(PiezoPly)["MFC_P1"]
 
 
 def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyration: float = 0.0) -> BendingStructure:

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.actuator.catalogue import PiezoPly, Programme, of_kind, programmes
+from rotor.actuator.catalogue import PiezoPly, Programme, actuators_of_kind, programmes
 from rotor.support.assets import asset_path
 
-PLIES = of_kind(PiezoPly)
+PLIES = actuators_of_kind(PiezoPly)
 
 
 def test_mfc_data_are_consistent():

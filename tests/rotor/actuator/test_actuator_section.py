@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.actuator.catalogue import of_kind
+from rotor.actuator.catalogue import actuators_of_kind
 from rotor.actuator.ply import PiezoPly, active_section
 from rotor.actuator.section import (
     HostBlade,
@@ -57,7 +57,7 @@ def axial_stiffness(section: WallSection) -> float:
 
 
 def ply(id: str) -> PiezoPly:
-    return of_kind(PiezoPly)[id]
+    return actuators_of_kind(PiezoPly)[id]
 
 
 # Laminate

@@ -11,7 +11,7 @@ from numpy.testing import assert_allclose, assert_array_equal
 
 from rotor import Design, Solution, make_design, solve
 from rotor.aero.disk import stations
-from rotor.aero.display import as_asked, resampling
+from rotor.aero.display import at_display_azimuths, resampling
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.problem import build_problem
@@ -113,7 +113,7 @@ class TestFields:
     def test_a_trim_on_the_grid_asked_for_is_shown_as_it_is(self, many: Solution):
         trim = analyse(many.design)
         problem, elements = trim.linear.problem, trim.linear.elements
-        shown = as_asked(problem, elements)
+        shown = at_display_azimuths(problem, elements)
         assert shown[0] is problem
         assert shown[1] is elements
         assert trim.solution.disk.alpha is elements.alpha
