@@ -100,7 +100,7 @@ def on_a_phone(browser: Browser, address: str) -> Watched:
 
 
 @pytest.mark.slow
-def test_lists_drawers_and_the_menu_fit_a_phone(browser: Browser, app: App):
+def test_menu_drawers_lists_and_disk_answer_taps_on_a_phone(browser: Browser, app: App):
     watched = on_a_phone(browser, app.address)
     page = watched.page
     page.locator("[data-page=more]").tap()
@@ -124,6 +124,15 @@ def test_lists_drawers_and_the_menu_fit_a_phone(browser: Browser, app: App):
     page.wait_for_selector('[data-explorer="drawer"]', state="detached")
     watched.row("Concept").locator("input").first.wait_for()
     assert page.evaluate(f"() => {panel}") == 0
+    # The circle of the chart around the disk goes where the disk is tapped.
+    page.locator("[data-do=view][data-value=disk]").tap()
+    page.wait_for_function("() => RX.state.plan?.values")
+    rim = page.locator(".rxf-plan > svg circle").first
+    x, y = watched.middle(rim)
+    page.touchscreen.tap(x, y - 0.25 * watched.box(rim)["height"])
+    page.wait_for_selector('[data-explorer="drawer"][data-name="probe"]')
+    page.locator("[data-page=charts]").tap()
+    watched.reads("around", r"0\.(49|5\d) R")
     assert watched.complaints == []
     page.context.close()
 
