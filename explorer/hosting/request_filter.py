@@ -135,6 +135,9 @@ def _own_names() -> tuple[str, ...]:
 
 
 TITLE = "Rotor explorer"
+_VIEWPORT = "width=device-width, initial-scale=1"
+"""Of the client's page. Without a least scale, a list that opens beyond the edge of a telephone widens the page, which
+closes the list, without end."""
 _SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = start_of("script"), end_of("head"), f"{start_of('body')}>"
 
 
@@ -161,9 +164,9 @@ def with_loading_screen(client: str, frame: str = "") -> ServedPage:
     head, begins, rest = client.partition(_SCRIPT_BEGINS)
     script, ends, tail = rest.partition(_HEAD_ENDS)
     before, body, content = tail.partition(_BODY_BEGINS)
-    if not (begins and ends and body) or before.strip() or start_of("title") not in head:
+    if not (begins and ends and body) or before.strip() or start_of("title") not in head or _VIEWPORT not in head:
         raise ValueError("The client's page is not built as expected: a head that ends in its script, then a body.")
-    head = with_title(head, TITLE)
+    head = with_title(head, TITLE).replace(_VIEWPORT, f"{_VIEWPORT}, minimum-scale=1")
     veil = web.text("loading.html") + web.scripts("loading.js")
     return ServedPage(f"{head}{web.styles('loading.css')}{ends}{body}{veil}{frame}{begins}{script}{content}".encode())
 

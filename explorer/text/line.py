@@ -78,7 +78,8 @@ def twist_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
     law = LAWS[inputs.law]
     turns = [(name, one) for name, one in zip(law.inputs, law.parameters, strict=True) if one.angular]
     if inputs.law in NOT_ALWAYS or not turns:
-        return [LinePiece(" with " + (law.title.lower() if design is None else twist_name(design)))]
+        name = law.title.lower() if design is None else twist_name(design)
+        return [LinePiece(f" with {'its twist ' if name == AS_BUILT else ''}{name}")]
     built = inputs.law == "builtin"
     if built and not any(getattr(inputs, name) for name, _ in turns):
         outer = turns[-1][0]

@@ -57,7 +57,7 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
     facts = [
         mass_words(installed),
         f"range of tip twist {number(math.degrees(installed.attainable), 2)}° in flight, {number(rest, 2)}° at rest",
-        f"first torsion at {number(installed.frequency, 2)} /rev",
+        f"first torsion at {number(installed.frequency, 2)}/rev",
         *([f"moment {number(installed.moment)} N·m"] if installed.moment else ()),
         *([] if verdict is None else [f"twist required {number(math.degrees(verdict.required), 2)}°"]),
         *([] if verdict is None else [f"slewing power {number(verdict.drive.slew_power)} W"]),

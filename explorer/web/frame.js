@@ -97,7 +97,8 @@
     if (panel) return toggle(panel);
     if (action === 'pin' && state.bar?.pinned && control.closest('.rxf-bar')) return pinMenu(control);
     if (action === 'mode') mark(value);
-    // In a narrow window a mode brings its controls along, and a view makes room for itself.
+    // In a narrow window a mode brings its controls along, in the place of a drawer too; a view makes room for itself.
+    if (action === 'mode' && small.matches && state.bar?.drawer) RX.send('drawer', '');
     if (action === 'mode' && (innerWidth <= 1100 || small.matches)) showTab('controls', true);
     if (action === 'view' && small.matches) openRail(beside());
     if (inside === menu && action !== 'along') menu.hidden = true;
@@ -239,7 +240,10 @@
   function mark(mode) {
     for (const button of root.querySelectorAll('.rxf-modes button'))
       button.setAttribute('aria-current', String(button.dataset.value === mode));
+    if (page.dataset.mode === mode) return;
     page.dataset.mode = mode;
+    const panel = document.querySelector('[data-dock-region=right] .mantine-ScrollArea-viewport');
+    if (panel) panel.scrollTop = 0;
   }
 
   RX.paint('bar', bar => {

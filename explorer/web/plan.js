@@ -318,7 +318,7 @@
     }
     const margin = Math.min(...own.map(there => there ? there.margin : Infinity));
     const narrow = layout.chart.width < 480;  // Else the words of its heading are cut.
-    const label = `° at ${circle.toFixed(2)} R${narrow ? '' : ', the circle under the pointer'}`;
+    const label = `° at ${circle.toFixed(2)} R${narrow ? '' : ', the white circle'}`;
     Charts.fill(around.firstElementChild, {
       ...chart, title: narrow ? 'Angle of attack' : chart.title, y: {...chart.y, label}, series,
       value: Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : 'reverse flow',
@@ -348,7 +348,10 @@
   place.addEventListener('pointerdown', event => { pressed = [event.clientX, event.clientY]; });
   place.addEventListener('click', event => {
     const spot = layout && RX.state.plan && find(event);
-    if (spot && pressed && distance([event.clientX, event.clientY], pressed) <= 5) open(spot);
+    if (!spot || !pressed || distance([event.clientX, event.clientY], pressed) > 5) return;
+    circle = spot.r;  // A tap has no move before it.
+    redraw();
+    open(spot);
   });
   const open = spot => RX.send('section', [spot.r, spot.psi]);
   // By key: along the blade and around the disk; Enter opens the section.

@@ -90,13 +90,57 @@ def swipe(session: CDPSession, watched: Watched, start: tuple[float, float], way
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
 
 
-@pytest.mark.slow
-def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: Browser, app: App):
+def on_a_phone(browser: Browser, address: str) -> Watched:
+    """A page that nothing is drawn on, 390 × 844 pixels wide and high; its context is the caller's to close."""
     context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
-    watched.open(app.address)
-    page, session = watched.page, context.new_cdp_session(watched.page)
+    watched.open(address)
+    return watched
+
+
+@pytest.mark.slow
+def test_menu_drawers_lists_and_disk_answer_taps_on_a_phone(browser: Browser, app: App):
+    watched = on_a_phone(browser, app.address)
+    page = watched.page
+    page.locator("[data-page=more]").tap()
+    menu, first = watched.box(".rxf-more"), watched.box("[data-do=pin]")
+    assert first["y"] - menu["y"] < 12.0  # No gap where there is nothing to redo.
+    page.locator("[data-do=drawer][data-value=settings]").tap()
+    page.wait_for_selector('[data-explorer="drawer"][data-name="settings"]')
+    assert page.evaluate("""() => [...document.querySelectorAll('[data-dock-region] .mantine-ScrollArea-viewport')]
+        .every(sheet => sheet.scrollWidth <= sheet.clientWidth)""")
+    # The list of the lowest row reaches below the window: the page stays as wide and the list open.
+    page.evaluate("() => { window.resized = 0; window.addEventListener('resize', () => window.resized++); }")
+    watched.row("Drawn twist").locator("input").first.tap()
+    page.get_by_role("option", name="×2", exact=True).wait_for()
+    watched.drawn()
+    assert page.evaluate("() => [innerWidth, innerHeight, window.resized]") == [390, 844, 0]
+    page.get_by_role("option", name="×2", exact=True).tap()
+    # A mode has its controls on the sheet from the first, also where a drawer stood and the controls were moved up.
+    panel = "document.querySelector('[data-dock-region=right] .mantine-ScrollArea-viewport').scrollTop"
+    assert page.evaluate(f"() => {panel} = 90") == page.evaluate(f"() => {panel}") == 90
+    page.locator(".rxf-modes [data-value=optimise]").tap()
+    page.wait_for_selector('[data-explorer="drawer"]', state="detached")
+    watched.row("Concept").locator("input").first.wait_for()
+    assert page.evaluate(f"() => {panel}") == 0
+    # The circle of the chart around the disk goes where the disk is tapped.
+    page.locator("[data-do=view][data-value=disk]").tap()
+    page.wait_for_function("() => RX.state.plan?.values")
+    rim = page.locator(".rxf-plan > svg circle").first
+    x, y = watched.middle(rim)
+    page.touchscreen.tap(x, y - 0.25 * watched.box(rim)["height"])
+    page.wait_for_selector('[data-explorer="drawer"][data-name="probe"]')
+    page.locator("[data-page=charts]").tap()
+    watched.reads("around", r"0\.(49|5\d) R")
+    assert watched.complaints == []
+    page.context.close()
+
+
+@pytest.mark.slow
+def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: Browser, app: App):
+    watched = on_a_phone(browser, app.address)
+    page, session = watched.page, watched.page.context.new_cdp_session(watched.page)
     slider = watched.row("Δ outboard").get_by_role("slider")
 
     def outer() -> float:

@@ -149,7 +149,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("mass", f"{row}{NUMBER} +#", kinds)
     read("power over the flight", rf"{row}{NUMBER} +{NUMBER} +[+−]([\d.]+) ±", kinds)
     read("range in flight", "range of tip twist #° in flight", rail["actuator.numbers"])
-    read("torsion", "first torsion at # /rev", rail["actuator.numbers"])
+    read("torsion", "first torsion at #/rev", rail["actuator.numbers"])
     read("mass that pays", "^# kg", part.pays[1] if len(part.pays) > 1 else "0 kg")
     read("fuel", "([\\d.]+) ±", flight["earns"].fuel)
     read("fuel", "Net fuel: \\w+ # ±", report)

@@ -13,10 +13,11 @@ from numpy.testing import assert_allclose
 from explorer.charts import plots
 from explorer.charts.plots import PowerCurves
 from explorer.charts.strip import autorotation_words
-from explorer.model.inputs import Inputs, baseline_of, baseline_title, inputs_of
+from explorer.model.inputs import OPENING, Inputs, baseline_of, baseline_title, inputs_of
 from explorer.model.units import number
 from explorer.text import readout
 from explorer.text.design_words import model_words
+from explorer.text.line import twist_pieces
 from explorer.text.status import provenance, status_panel, trust_page
 from explorer.text.why import why
 from explorer.workers.call import at_once
@@ -196,6 +197,12 @@ class TestPowerCurves:
         assert [mu for mu in asked if mu > 0.24] == [0.3, 0.25, 0.275]
         assert np.isfinite(curves.known(design, design).design[:11]).all()
         assert np.isnan(curves.known(design, design).design[11:]).all()
+
+
+@pytest.mark.parametrize("law", ["given", "optimised"])
+def test_a_search_that_has_found_nothing_yet_has_its_twist_as_built(law: str):
+    (piece,) = twist_pieces(replace(OPENING, law=law), OPENING.design())
+    assert piece.text == " with its twist as built"
 
 
 def test_a_test_stand_has_no_fuselage_and_no_tail_rotor():

@@ -31,7 +31,8 @@ from tests.waited import until
 
 OUTER = "Δ outboard [°/R]"
 CLIENT = (
-    "<!doctype html><html><head><title>Viser</title>\n<script data-p=x>go()</script></head>\n"
+    '<!doctype html><html><head><meta name="viewport" content="width=device-width, initial-scale=1" />'
+    "<title>Viser</title>\n<script data-p=x>go()</script></head>\n"
     '<body>\n<div id="root"></div></body></html>'
 )
 
@@ -71,11 +72,18 @@ def test_the_veil_comes_before_the_script_and_the_script_before_the_root():
     html = with_loading_screen(CLIENT).html.decode()
     parts = ("<title>Rotor explorer</title>", "</head>", 'id="rx-veil"', "data-p=x>go()", 'id="root"')
     assert [html.index(part) for part in parts] == sorted(html.index(part) for part in parts)
-    assert html.count("<body>") == html.count("</head>") == 1
+    assert html.count("<body>") == html.count("</head>") == html.count("initial-scale=1, minimum-scale=1") == 1
 
 
 @pytest.mark.parametrize(
-    "client", ["", "<html></html>", CLIENT.replace("<title>", "<t>"), CLIENT.replace("<body>", "")]
+    "client",
+    [
+        "",
+        "<html></html>",
+        CLIENT.replace("<title>", "<t>"),
+        CLIENT.replace("scale=1", ""),
+        CLIENT.replace("<body>", ""),
+    ],
 )
 def test_another_page_is_refused(client: str):
     with pytest.raises(ValueError, match="not built as expected"):
