@@ -255,6 +255,13 @@ class TestDynamicStall:
         assert p.region is FlowRegion.STALLED
         assert p.unsteady.separation == pytest.approx(unsteady.separation[i, j], abs=1e-12)
 
+    def test_without_stall_there_is_no_margin(self, stalled: Solution):
+        without = solve(with_switches(stalled.design, ("stall",)))
+        p = probe(without, 0.6, math.radians(285.0))
+        assert (p.stall_margin, p.region) == (None, FlowRegion.ATTACHED)
+        assert "stall" not in lift_chart(p).y.label
+        assert set(turn_of(without, 0.6, 285.0).margin) == {None}
+
     def test_the_loop_is_the_disks_own(self, stalled: Solution):
         disk = stalled.disk
         p = probe(stalled, disk.r[12], 1.0)
