@@ -93,6 +93,7 @@ def test_the_triangle_closes_anywhere(r: float, psi: float, steady: Solution):
     assert_allclose(math.hypot(p.lift, p.drag), math.hypot(p.thrust, p.pull), rtol=1e-12)
     assert_allclose(p.thrust, p.lift * math.cos(p.phi) - p.drag * math.sin(p.phi), atol=1e-9 * abs(p.lift) + 1e-9)
     assert p.cd > 0.0
+    assert p.stall is not None
     assert all(math.isfinite(value) for value in (p.cl, p.lift, p.power, *p.stall))
 
 
