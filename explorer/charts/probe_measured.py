@@ -48,7 +48,8 @@ def lift_chart(probe: Probe) -> Chart:
         series.append(Line("a turn", loop[0, [*range(loop.shape[1]), 0]], turn[1], NOW, width=1.6))
     if not probe.idle:
         series.append(Points("", (degrees,), (probe.cl,), NOW, words=("this element",)))
-    ends = [math.degrees(end) for end in probe.stall]
+    ends = [math.degrees(end) for end in probe.stall or ()]
+    dashed = "; dashed: stall" if ends else ""
     return Chart(
         "Lift curve",
         Axis(
@@ -57,7 +58,7 @@ def lift_chart(probe: Probe) -> Chart:
             tuple(np.arange(-180.0 if step > 5.0 else -10.0, high + 0.1, 2.0 * step).tolist()),
             unit="°",
         ),
-        Axis(f"C_l at Mach {number(probe.table_mach, 2)}; dashed: stall", (bottom, top), (-1.0, 0.0, 1.0)),
+        Axis(f"C_l at Mach {number(probe.table_mach, 2)}{dashed}", (bottom, top), (-1.0, 0.0, 1.0)),
         tuple(series),
         tuple(Rule(end, colour=LIMIT, dashes="4 3") for end in ends if low < end < high),
         note=tip("chart_lift_curve"),

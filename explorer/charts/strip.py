@@ -297,7 +297,7 @@ def alpha_chart(
     finite = np.concatenate(seen)
     finite = np.clip(finite[np.isfinite(finite)], -15.0, 20.0)
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
-    value, note = _margin(r, np.minimum(upper - alpha, alpha - lower))
+    value, note = _margin(r, np.minimum(upper - alpha, alpha - lower)) if solution.design.models.stall else ("", "")
     y_range = held_range(previous, min(low, -2.0), max(high, 14.0))
     limits = _mostly_seen([role_line("limit", r, limit) for limit in (lower, upper)], y_range)
     return Chart(

@@ -58,7 +58,7 @@ def _frame(scene: NDArray[np.uint8], k: int, horizon: float, ride: RidePart, dar
     psi = number(360.0 * k / len(ride.region))
     font = ImageFont.truetype(font_path(), 24)
     draw.text((28, HEIGHT - 50), f"{ride.r:.2f} R · ψ {psi}°", ink, font, anchor="ls")
-    words = region if filled is None else f"α {number(ride.alpha[k], 1)}°"
+    words = region if ride.u[k] < 0.0 else f"α {number(ride.alpha[k], 1)}°"
     if filled is not None:
         words += " · stalled" if stalls else f" · {ride.margin[k]}° to stall"
     draw.text((WIDTH - 28, HEIGHT - 50), words, colour if stalls else ink, font, anchor="rs")

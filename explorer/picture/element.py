@@ -105,8 +105,8 @@ class Probe:
     """In the plane, against the rotation [N/m]."""
     power: float
     """Ω y times the pull [W/m]."""
-    stall: tuple[float, float]
-    """Negative and positive stall angle, as the disk marks them [rad]."""
+    stall: tuple[float, float] | None
+    """Negative and positive stall angle, as the disk marks them [rad]; None where sections do not stall."""
     cd_mach: float
     """∂C_d/∂M"""
     idle: bool
@@ -121,15 +121,24 @@ class Probe:
 
     @property
     def stall_margin(self) -> float | None:
-        """Angle of attack left before stall [rad]; None in reverse flow, where it means nothing."""
-        return None if self.u_t < 0.0 else min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
+        """Angle of attack left before stall [rad]; None in reverse flow, where it means nothing, and without stall."""
+        if self.u_t < 0.0 or self.stall is None:
+            return None
+        return min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
+
+    @property
+    def stall_share(self) -> float | None:
+        """α over the stall angle on its side; None where there is no margin."""
+        if self.u_t < 0.0 or self.stall is None:
+            return None
+        return max(self.alpha / self.stall[1], self.alpha / self.stall[0])
 
     @property
     def region(self) -> FlowRegion:
-        margin = self.stall_margin
-        if margin is None:
+        if self.u_t < 0.0:
             return FlowRegion.IDLE if self.idle else FlowRegion.REVERSE
-        if margin < 0.0 if self.unsteady is None else self.unsteady.separation < STALLED:
+        margin = self.stall_margin
+        if (margin is not None and margin < 0.0) if self.unsteady is None else self.unsteady.separation < STALLED:
             return FlowRegion.STALLED
         return FlowRegion.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else FlowRegion.ATTACHED
 
@@ -183,7 +192,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         thrust=thrust,
         pull=pull,
         power=pull * r * speed,
-        stall=(at.held(lower), at.held(upper)),
+        stall=(at.held(lower), at.held(upper)) if design.models.stall else None,
         cd_mach=at.held(disk.cd_mach),
         idle=idle,
         unsteady=None if unsteady is None else _around(disk, unsteady, at, r),
@@ -295,10 +304,7 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
         where=[where(here.psi) for here in around],
         region=[here.region.value for here in around],
         margin=[None if here.stall_margin is None else number(math.degrees(here.stall_margin), 1) for here in around],
-        filled=[
-            None if here.u_t < 0.0 else round(max(here.alpha / here.stall[1], here.alpha / here.stall[0]), 3)
-            for here in around
-        ],
+        filled=[None if here.stall_share is None else round(here.stall_share, 3) for here in around],
         angles=_rounded(angles),
         curves=[_rounded(curve, 3) for curve in curves],
         chart=drawn_chart(chart),

@@ -72,7 +72,8 @@ def result(run: SearchRun) -> Markup:
             parts.append(tag("div", run.sentence))
         return _block(parts)
     if run.optimum is not None and run.optimum.doubt is not None:
-        parts.append(tag("div", run.optimum.doubt.sentence, data_explorer="sure"))
+        words = run.optimum.doubt.in_words("Against the starting design it")
+        parts.append(tag("div", words, data_explorer="sure"))
     if run.reference_doubt is not None:
         words = f"Against {run.record.task.reference_title} it {run.reference_doubt.saving_words}."
         parts.append(tag("div", words, data_explorer="sure-reference"))
@@ -92,16 +93,15 @@ def _block(parts: list[Markup], name: str = "found") -> Markup:
 
 
 def _range(parameter: Parameter, band: ParameterBand) -> str:
-    digits = _digits(parameter, band)
+    half = 0.5 * (parameter.shown(band.high) - parameter.shown(band.low))
+    digits = min(_digits(parameter), decimals(half)) if half > 0.0 else _digits(parameter)
     low, high = (number(parameter.shown(end), digits) for end in (band.low, band.high))
     return f"{parameter.title.lower()} {low} … {high} {parameter.shown_unit}".rstrip()
 
 
-def _digits(parameter: Parameter, band: ParameterBand | None) -> int:
-    """Decimals of a parameter: those that its range allows, at most those of its slider."""
-    most = 1 if parameter.angular else 2
-    half = 0.5 * (parameter.shown(band.high) - parameter.shown(band.low)) if band is not None else 0.0
-    return min(most, decimals(half)) if half > 0.0 else most
+def _digits(parameter: Parameter) -> int:
+    """Decimals of a parameter, as on its slider and in the line on top; a wide range has fewer."""
+    return 1 if parameter.angular else 2
 
 
 def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
@@ -110,8 +110,7 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
     rows, notes = list[Content](), [optimum.message]
     ranges = {band.parameter: band for band in optimum.doubt_band}
     for parameter, value in zip(concept.parameters, best.parameters, strict=True):
-        digits = _digits(parameter, ranges.get(parameter.name))
-        shown = tag("td.rx-num", number(parameter.shown(value), digits))
+        shown = tag("td.rx-num", number(parameter.shown(value), _digits(parameter)))
         unit = tag("td.rx-dim.rx-unit", parameter.shown_unit)
         rows.append(tag("tr", tag("td", parameter.title), shown, unit))
     if ranges and optimum.doubt_cost is not None:

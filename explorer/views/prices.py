@@ -32,9 +32,10 @@ def prices(now: PageState) -> dict[str, Any]:
     models = now.state.solution.design.models
     steps, current = switched_alone(now)
     waits = ("Computing …",) if not steps and not current else ()
+    on = {"stall": models.stall, "reverse_flow": True}
     shown = {
-        name: RegionPrice((_cost(steps[name], now.units),) if name in steps else waits, stale=not current)
-        for name in _NAMES
+        name: RegionPrice((_cost(steps[name], now.units, on[name]),) if name in steps else waits, stale=not current)
+        for name in on
     }
     stall, asked = shown["stall"], stall_edge_work(now)
     if asked:
@@ -45,16 +46,14 @@ def prices(now: PageState) -> dict[str, Any]:
     return {"prices": shown | {"stall": replace(stall, press="Without stall" if models.stall else "With stall")}}
 
 
-_NAMES = "stall", "reverse_flow"
-
-
-def _cost(step: WaterfallStep, units: Units) -> str:
-    """From the trim without the effect and that with all."""
+def _cost(step: WaterfallStep, units: Units, on: bool) -> str:
+    """From the trim without the effect and that with all; on: whether the page has the effect."""
     if step.note:
         return step.note.capitalize()
     if step.added is None:
         return "No trim without it"
-    return f"{'Saves' if step.added > 0.0 else 'Costs'} {units.watts(abs(step.added), 1)}"
+    does = "save" if step.added > 0.0 else "cost"
+    return f"{f'{does.capitalize()}s' if on else f'Would {does}'} {units.watts(abs(step.added), 1)}"
 
 
 def _edges(stalls: bool, mu: float, edges: dict[str, float | None], units: Units) -> list[str]:
@@ -62,9 +61,10 @@ def _edges(stalls: bool, mu: float, edges: dict[str, float | None], units: Units
     by_mu, by_mass, by_twist = (edges.get(name) for name in ("mu", "mass_kg", "twist"))
     ways = [] if by_mu is None else [f"at µ {number(mu + by_mu, 3)}"]
     if by_mass is not None:
-        ways.append(f"at {units.mass.text(by_mass, 2 if units.mass is TONNE else 0, sign=True)}")
+        mass = units.mass.text(abs(by_mass), 2 if units.mass is TONNE else 0)
+        ways.append(f"with {mass} {'less' if by_mass < 0.0 else 'more'}")
     if by_twist is not None:
-        ways.append(f"at twist {number(by_twist, 1, sign=True)}°/R")
+        ways.append(f"with twist {number(by_twist, 1, sign=True)}°/R")
     return [f"{'or' if k else 'Ends' if stalls else 'Begins'} {way}" for k, way in enumerate(ways)]
 
 

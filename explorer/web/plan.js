@@ -52,7 +52,8 @@
     const phi = Math.atan2(value('u_p', out), value('u_t', out)) / DEGREE;
     const alpha = 180 - turned(180 - value('theta', out) - value('ahead', held) + phi);
     const upper = value('upper', held), lower = value('lower', held);
-    return {alpha, upper, lower, margin: Math.min(upper - alpha, alpha - lower),
+    const margin = upper < 90 ? Math.min(upper - alpha, alpha - lower) : Infinity;  // Sections may not stall at all.
+    return {alpha, upper, lower, margin,
       mach: Math.max(value('mach', out), 0), cl: value('cl', held)};
   }
   const reversed = ({r, psi}) => RX.shown('plan').mu * Math.sin(psi * DEGREE) + r < 0;
@@ -138,10 +139,10 @@
     const placed = [];
     for (const region of regions) {
       const size = sizes[region.name], largest = region.lines.reduce((most, line) =>
-        line.length > most.length ? line : most, [[0, 0]]);
+        line.length > most.length ? line : most, []);
       const [sumX, sumY] = largest.reduce(([sx, sy], [px, py]) => [sx + px, sy + py], [0, 0]);
-      const nearer = sumX < 0 ? left : right, other = sumX < 0 ? right : left;
-      const middle = layout.y + layout.radius * sumY / largest.length - size / 2;
+      const nearer = sumX <= 0 ? left : right, other = sumX < 0 ? right : left;
+      const middle = layout.y + layout.radius * sumY / Math.max(largest.length, 1) - size / 2;
       const column = (layout.both ? [nearer, other] : [left]).find(one => free(one, middle, size) !== null);
       if (!column) continue;
       const top = free(column, middle, size);
@@ -262,7 +263,7 @@
     const number = fixed(colour, Math.abs(colour) < 1 ? 3 : 1);
     const own = READ.includes(field) ? '' : `<dt>${text(field)}</dt><dd>${number} ${text(unit)}</dd>`;
     if (reversed(spot)) return `<dt>Mach</dt><dd>${fixed(value.mach, 3)}</dd>${own}<dt>Reverse flow</dt><dd></dd>`;
-    return ROWS.map(([name, title, decimals, of]) => {
+    return ROWS.filter(([name]) => Number.isFinite(value[name])).map(([name, title, decimals, of]) => {
       const bad = name === 'margin' && value.margin < 0 ? 'rxf-bad' : '';
       const words = title.replace('_l', '<sub>l</sub>');
       return `<dt>${words}</dt><dd class="${bad}">${fixed(value[name], decimals)}${of}</dd>`;
@@ -321,7 +322,7 @@
     const label = `° at ${circle.toFixed(2)} R${narrow ? '' : ', the white circle'}`;
     Charts.fill(around.firstElementChild, {
       ...chart, title: narrow ? 'Angle of attack' : chart.title, y: {...chart.y, label}, series,
-      value: Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : 'reverse flow',
+      value: Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : own.some(Boolean) ? '' : 'reverse flow',
       kind: margin < 0 ? 'bad' : '', rules: here.map(psi => ({at: psi, along: 'x', colour: 'var(--rx-faint)'})),
     }, layout.chart);
   }

@@ -84,7 +84,8 @@
     return `${Charts.axes(chart, frame)}${Charts.inside(chart, frame)}
       <path d="${trace(angles.map((angle, k) => [X(angle), Y(curves[nearer][k])]))}" fill="none" stroke="var(--rx-dim)"
         stroke-width="1.6" ${u < 0 ? 'stroke-dasharray="5 4"' : ''}/>
-      <text x="${X(0) + 6}" y="10">C_l at Mach ${fixed(mach[nearer], 2)}</text>
+      <text x="${X(0) + 6}" y="10">C<tspan dy="3" font-size="80%">l</tspan><tspan dy="-3"> at Mach ${
+        fixed(mach[nearer], 2)}</tspan></text>
       ${Math.abs(alpha) > chart.x.range[1] ? '' : dot}`;
   }
   function draw(psi) {
@@ -92,8 +93,9 @@
     const region = section.region[nearer], bad = region === 'stalled';
     const width = place.clientWidth - 32, wide = width > 560, half = wide ? .48 * width : width;
     const frame = Charts.frame(section.chart, wide ? width - half - 12 : width, HEIGHT, {bottom: 18});
+    const margin = section.margin[nearer], left = margin ? ` · ${margin}° to stall` : '';
     const words = u < 0 ? `${region}: the air comes from the trailing edge`
-      : `α ${fixed(alpha, 1)}° · ${bad ? 'stalled' : `${section.margin[nearer]}° to stall`}`;
+      : `α ${fixed(alpha, 1)}°${bad ? ' · stalled' : left}`;
     const filled = Math.min(100 * (section.filled[nearer] ?? 0), 100);
     const svg = (size, label, content) => `<svg viewBox="0 0 ${size} ${HEIGHT}" style="width:${size}px" role="img"
       aria-label="${label}">${content}</svg>`;

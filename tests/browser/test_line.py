@@ -44,6 +44,11 @@ def test_numbers_of_the_line_move_their_sliders_in_every_mode(visit: Visit, size
     watched.answered()
     as_built = watched.text("line")
     assert numbers(watched).keys() == {"mass_t", "advance_ratio", "built_outer"}
+    if sizes == WINDOWS["desk"]:  # In the rail its number shows where the pointer is: on the row's name, too.
+        for label, other in (("Mass", "Adv. ratio"), ("Adv. ratio", "Mass")):
+            watched.row(label).locator("label").hover()
+            watched.until(lambda label=label: watched.field(label).evaluate("e => getComputedStyle(e).opacity") == "1")
+            assert watched.field(other).evaluate("e => getComputedStyle(e).opacity") == "0"
     # Tab goes from one to the next; a key is a step of the slider, and one press of undo takes it back.
     page.locator("[data-slide=mass_t]").focus()
     page.keyboard.press("Tab")

@@ -85,6 +85,8 @@ def test_one_press_shows_the_disk_without_stall(browser: Browser, app: App):
         button.wait_for()
         page.wait_for_function(_READY)
         watched.until(lambda stalls=stalls: ("stall" in page.evaluate(regions)) == stalls)
+        assert ("least margin" in page.locator(".rxf-around").inner_text()) == stalls
+        assert button.bounding_box()["x"] < page.locator(".rxf-views").bounding_box()["x"] / 2.0  # It stays in reach.
         button.click()
     assert watched.complaints == []
     watched.close()

@@ -111,9 +111,10 @@ class TestWords:
         assert said in search_text.headline(run)
 
     @pytest.mark.parametrize(
-        ("half", "rate", "place"), [(0.04, "−8.3", "0.46"), (3.0, "−8", "0.5"), (0.4, "−8.3", "0.46")]
+        ("half", "rate", "place"),
+        [(0.04, "−8.3 … −8.2", "0.45 … 0.46"), (3.0, "−11 … −5", "0.2 … 0.8"), (0.4, "−8.7 … −7.9", "0.42 … 0.50")],
     )
-    def test_an_optimum_has_the_digits_that_its_range_allows(self, run: SearchRun, half: float, rate: str, place: str):
+    def test_a_range_has_the_digits_that_it_allows(self, run: SearchRun, half: float, rate: str, place: str):
         free, values = CONCEPTS["two-segment-free"], (math.radians(-8.26), math.radians(-1.0), 0.456)
         bands = tuple(
             ParameterBand(each.name, value - within, value + within)
@@ -127,7 +128,9 @@ class TestWords:
         task = replace(run.record.task, search=replace(run.search, concept=free))
         words = search_text.details(SearchRun(replace(run.record, task=task, result=told)))
         cells = re.findall(r"<td[^>]*rx-num[^>]*>([^<]*)<", words)
-        assert (cells[0], cells[2]) == (rate, place)
+        assert (cells[0], cells[2]) == ("−8.3", "0.46")  # As on the sliders and in the line on top.
+        assert f"inboard rate {rate} °/R" in words
+        assert f"break point {place} R" in words
 
     @pytest.mark.parametrize("name", CONCEPTS)
     def test_every_concept_has_a_drawing_with_an_arrow_for_each_parameter(self, name: str):

@@ -36,7 +36,7 @@ def known(*off: str) -> PageState:
 
 
 def kilowatts(text: str) -> float:
-    sign = -1.0 if text.startswith("Saves") or "−" in text else 1.0
+    sign = -1.0 if "save" in text.lower() or "−" in text else 1.0
     return sign * float(re.search(r"\d+\.\d", text)[0])
 
 
@@ -58,7 +58,7 @@ def test_the_disk_says_what_the_waterfall_says():
 def test_edges_are_said_in_the_units_of_the_page_and_stale_ones_are_marked():
     now = known()
     lines = prices(now)["prices"]["stall"].lines
-    assert lines[1:] == ("Ends at µ 0.319", "or at −0.62 t", "or at twist +2.1°/R")
+    assert lines[1:] == ("Ends at µ 0.319", "or with 0.62 t less", "or with twist +2.1°/R")
     waits = prices(replace(now, answers={}))["prices"]["stall"]
     assert waits.lines == ("Computing …",)
     assert waits.stale

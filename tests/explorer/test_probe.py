@@ -93,6 +93,7 @@ def test_the_triangle_closes_anywhere(r: float, psi: float, steady: Solution):
     assert_allclose(math.hypot(p.lift, p.drag), math.hypot(p.thrust, p.pull), rtol=1e-12)
     assert_allclose(p.thrust, p.lift * math.cos(p.phi) - p.drag * math.sin(p.phi), atol=1e-9 * abs(p.lift) + 1e-9)
     assert p.cd > 0.0
+    assert p.stall is not None
     assert all(math.isfinite(value) for value in (p.cl, p.lift, p.power, *p.stall))
 
 
@@ -254,6 +255,13 @@ class TestDynamicStall:
         p = probe(stalled, float(disk.r[i]), float(disk.psi[j]))
         assert p.region is FlowRegion.STALLED
         assert p.unsteady.separation == pytest.approx(unsteady.separation[i, j], abs=1e-12)
+
+    def test_without_stall_there_is_no_margin(self, stalled: Solution):
+        without = solve(with_switches(stalled.design, ("stall",)))
+        p = probe(without, 0.6, math.radians(285.0))
+        assert (p.stall_margin, p.region) == (None, FlowRegion.ATTACHED)
+        assert "stall" not in lift_chart(p).y.label
+        assert set(turn_of(without, 0.6, 285.0).margin) == {None}
 
     def test_the_loop_is_the_disks_own(self, stalled: Solution):
         disk = stalled.disk

@@ -23,6 +23,7 @@ from explorer.charts.strip import (
 )
 from explorer.model.units import AVIATION, SI
 from rotor import Solution, Status, doubt, make_design, solve
+from rotor.aero.switches import with_switches
 from rotor.support.chart import Band, Chart, Line, Points, drawn_chart
 
 
@@ -186,6 +187,8 @@ class TestAlpha:
         chart = alpha_chart(heavy, None, float(psi[np.argmax(stalled)]))
         assert chart.value == "stalled"
         assert chart.note.startswith("Stalled between 0.")
+        without = replace(heavy, design=with_switches(heavy.design, ("stall",)))
+        assert (alpha_chart(without, None, 65.0).value, roles(alpha_chart(without, None, 65.0))) == ("", ["this"])
 
 
 class TestLift:
