@@ -11,7 +11,7 @@ from rotor.actuator.kind import Drive as Drive
 from rotor.actuator.optimum import STATIONS, twisted
 from rotor.actuator.section import HostBlade, Placement, default_placement, section_spec, skin
 from rotor.design.blade import Carried, Rotor
-from rotor.design.design import Design
+from rotor.design.design import Design, require_design
 from rotor.design.twist import TwistLaw
 from rotor.dynamics.structure import (
     BendingStructure,
@@ -145,7 +145,7 @@ def with_actuator(design: Design, actuator: str) -> Design:
     Raises:
         ValueError: the actuator, a key or a value cannot be used, or the blade cannot carry it.
     """
-    check_blade(design.aircraft)
+    check_blade(require_design(design).aircraft)
     one = read_actuator(actuator)
     installed = install(find_actuator(one.id), one.placement, one.host, design.rotor)
     count = len(installed.shapes)

@@ -17,7 +17,7 @@ from rotor.airfoil.section_table import SectionTable, between, table_from_deck
 from rotor.support.arrays import read_only
 from rotor.support.assets import asset_path
 from rotor.support.bytes_cache import bytes_cache
-from rotor.support.user_input import did_you_mean
+from rotor.support.user_input import check_known
 
 TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
 
@@ -38,9 +38,7 @@ def load_section(name: str) -> SectionTable:
     """The bundled table of `name`, one of `TABLE_NAMES`, read once and cached; ValueError for another name."""
     if name.startswith(THESIS_NAME):
         return polynomial_table(parse_reading(name))
-    if name not in SECTION_NAMES:
-        hint = did_you_mean(name, TABLE_NAMES) or ":"
-        raise ValueError(f"no section named {name!r}{hint} choose one of {', '.join(TABLE_NAMES)}")
+    check_known("section", name, TABLE_NAMES)
     sources = {"naca0012": _SLOPE, "naca63a015": _SLOPE, "naca0015re242k": _MEASURED}
     tunnel = name.startswith(("sc109", "oa209", "naca23012tab"))
     source = _TUNNEL_SOURCE if tunnel else sources.get(name, _SOURCE)

@@ -4,7 +4,6 @@ import argparse
 import json
 import math
 from dataclasses import asdict, replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -50,7 +49,7 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--table", choices=("5.1", "5.2"), help=words)
     words = "print what an actuator would need to pay on this rotor (all: on each rotor)"
     parser.add_argument("--what-would-pay", nargs="?", choices=("this", "all"), const="this", help=words)
-    parser.add_argument("--plot", type=Path, metavar="FILE.svg", help="with --what-would-pay: draw the break-even line")
+    parser.add_argument("--plot", metavar="FILE.svg", help="with --what-would-pay: draw the break-even line")
     common.add_design_arguments(parser)
     common.add_output_arguments(parser)
 

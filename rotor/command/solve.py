@@ -4,7 +4,6 @@ import argparse
 import json
 import math
 from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 from rotor.actuator.installation import with_actuator
@@ -31,7 +30,7 @@ def add_parser(commands: Any) -> None:
     words = "fly with an actuator on the blades, such as MFC_P1,drive=77 (drive in %%)"
     parser.add_argument("--carry", metavar="ACTUATOR", help=words)
     output = add_output_arguments(parser)
-    output.add_argument("--save", type=Path, metavar="FILE", help="write a design file, which the page opens")
+    output.add_argument("--save", metavar="FILE", help="write a design file, which the page opens")
     output.add_argument(
         "--distribution",
         action="store_true",

@@ -29,7 +29,7 @@ from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.gust import Gust
 from rotor.design.quantity import check_names
 from rotor.design.twist import SumTwist, TwistLaw, ideal_tip_pitch, inline_spec, parse_twist
-from rotor.support.user_input import check_suffix, write_whole
+from rotor.support.user_input import check_suffix, shorten, write_whole
 
 
 def fingerprint(value: object) -> str:
@@ -539,5 +539,6 @@ def check_preset(preset: str) -> None:
 def require_design(design: Design) -> Design:
     """The design; TypeError with one sentence for anything else, which a notebook may pass."""
     if not isinstance(design, Design):  # pyright: ignore[reportUnnecessaryIsInstance]
-        raise TypeError(f"design is {design!r:.80}: give what rotor.make_design or rotor.load_design returns")
+        what = shorten(repr(design), 80)
+        raise TypeError(f"design is {what}: give what rotor.make_design or rotor.load_design returns")
     return design

@@ -56,6 +56,8 @@ def convert(value: Any, declared: type[Declared], *place: str) -> Declared:
             return msgspec.convert(value, declared)
     except msgspec.ValidationError as error:
         found, cause = re.search(r" - at `\$([\w.\[\]]+)`$", str(error)), error.__cause__
+    except UnicodeEncodeError as error:
+        raise Refusal(f"{shorten(repr(error.object))} holds half of a character: write it whole") from None
     at: Place = place
     options = _options(inspect.type_info(declared))
     for key, position in re.findall(r"\.(\w+)|\[(\d+)\]", found[1] if found else ""):

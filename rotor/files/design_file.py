@@ -16,7 +16,7 @@ from rotor.design.active_twist import read_active_twist
 from rotor.design.aircraft import Aircraft
 from rotor.design.blade import Carried
 from rotor.design.design import FORMAT, VERSION, Design, with_grid
-from rotor.design.quantities import ARGUMENTS, BY_KEY, OPTIONS, SWITCHES
+from rotor.design.quantities import ARGUMENTS, BY_KEY, OPTIONS, SPEED, SWITCHES
 from rotor.design.quantity import Quantity
 from rotor.design.twist import SumTwist
 from rotor.dynamics.structure import carrying, check_blade
@@ -90,6 +90,8 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
         raise ValueError(
             f"design file is {kind[0]!r} version {kind[1]!r}: this program reads {FORMAT!r} version {VERSION}"
         )
+    if (speed := next((name for name in SPEED if name in record), None)) is not None:
+        raise ValueError(f"unknown key {speed!r}: write advance_ratio, the speed over that of the blade tip")
     given = convert(record, _Record)
     aircraft = read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths)
     stand = record.get("stand")
@@ -163,8 +165,11 @@ def _named(record: dict[str, Any], name: str, *, paths: bool = False) -> Design:
 def _record(content: bytes, name: str) -> dict[str, Any]:
     try:
         record = json.loads(content)
-    except (UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise ValueError(f"design file {name!r} cannot be read ({error}): give a JSON design file") from None
+    except UnicodeDecodeError:
+        raise ValueError(f"design file {name!r} cannot be read (not UTF-8 text): give a JSON design file") from None
+    except json.JSONDecodeError as error:
+        where = f"line {error.lineno}, column {error.colno}: {error.msg}" if content.strip() else "it is empty"
+        raise ValueError(f"design file {name!r} is not JSON ({where}): give a JSON design file") from None
     except ValueError:
         raise ValueError(f"design file {name!r} holds an integer of thousands of digits: check the values") from None
     if not isinstance(record, dict):

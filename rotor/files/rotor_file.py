@@ -275,7 +275,8 @@ def load_rotor(path: str | Path, *, allow_outside: bool = False) -> Aircraft:
     """
     path = Path(path)
     with refusing(f"rotor file {shorten(path.name)!r}", "check its values, see docs/rotor_file.md"):
-        texts = {path.name: _read(path)}
+        remedy = "give a shipped rotor's name, or a text file of 2 MB at most"
+        texts = {path.name: read_text(path, "rotor file", remedy, LARGEST_FILE)}
         rotor = read_tables(path.name, texts[path.name])
         for name in rotor.named:
             beside = path.parent / name
@@ -285,13 +286,6 @@ def load_rotor(path: str | Path, *, allow_outside: bool = False) -> Aircraft:
                 raise ValueError(
                     f"{path.name} names {shorten(name)!r}, outside its folder: copy it there, or give --allow-outside"
                 )
-            texts[name] = _read(beside)
+            remedy = "save it as a UTF-8 text file of 2 MB at most"
+            texts[name] = read_text(beside, "section file", remedy, LARGEST_FILE)
         return read_aircraft(path.name, texts)
-
-
-def _read(path: Path) -> str:
-    if path.suffix.lower() == ".toml":
-        return read_text(
-            path, "rotor file", "give a shipped rotor's name, or a text file of 2 MB at most", LARGEST_FILE
-        )
-    return read_text(path, "section file", "save it as a UTF-8 text file of 2 MB at most", LARGEST_FILE)

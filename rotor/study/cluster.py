@@ -41,6 +41,8 @@ def dask_client(address: str) -> Generator[Any]:
             f"no Dask scheduler answers at {address!r} ({type(error).__name__}): start one with `dask scheduler`, "
             "and give the tcp://host:port that it prints"
         ) from None
+    except TypeError:  # What Dask raises where a tls:// address has no certificates.
+        raise ValueError(f"{address!r} needs certificates: set distributed.comm.tls in Dask's configuration") from None
     try:
         yield client
     finally:

@@ -31,7 +31,7 @@ from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import solve_many
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.power import PowerBudget
-from rotor.trim.solution import Solution
+from rotor.trim.solution import Solution, require_solution
 from rotor.trim.solve import solve
 
 HUB_COLUMNS = tuple(f"hub_{name}_{'n' if name[0] == 'f' else 'nm'}" for name in LOADS)
@@ -56,6 +56,10 @@ class SweepTable:
     """What was swept, as the argument of `sweep`; empty where that is not known."""
     reference: str = ""
     """One of `labels`: what `change_percent` is relative to; empty: there is no such column."""
+
+    def __post_init__(self) -> None:
+        for solution in self.solutions:
+            require_solution(solution)
 
     def __len__(self) -> int:
         return len(self.solutions)
@@ -261,6 +265,8 @@ def schedule(
     """
     if isinstance(mu, str) or not hasattr(mu, "__iter__"):
         raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu={list(SWEPT['mu'].examples)}")
+    if isinstance(concepts, str):
+        raise TypeError(f"concepts is {concepts!r}: give a list, concepts=[{concepts!r}]")
     design, speeds = require_design(design), list(mu)
     times = [1.0] * len(speeds) if hours is None else list(hours)
     if len(times) != len(speeds):

@@ -64,9 +64,11 @@ _SKIPPED = " … "
 
 
 def did_you_mean(name: object, known: Iterable[str]) -> str:
-    """`; did you mean 'optimise'?`, or nothing where no known name is close. Capitals and hyphens do not matter."""
-    plain = {_plain(one): one for one in known}
-    close = difflib.get_close_matches(_plain(name), list(plain), n=1)
+    """`; did you mean 'optimise'?`, or nothing where no known name begins so or is close. Capitals and hyphens do not
+    matter."""
+    plain, given = {_plain(one): one for one in known}, _plain(name)
+    begin = [one for one in plain if one.startswith(given)] if len(given) > 2 else []
+    close = difflib.get_close_matches(given, begin or list(plain), n=1, cutoff=0.0 if begin else 0.6)
     return f"; did you mean {plain[close[0]]!r}?" if close else ""
 
 
@@ -221,7 +223,10 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
     if path.exists() and not path.is_file():
         path.write_bytes(data)
         return
-    handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.", suffix=".part")
+    try:
+        handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.", suffix=".part")
+    except OSError as error:
+        raise OSError(error.errno, error.strerror, str(path)) from None
     try:
         with os.fdopen(handle, "wb") as file:
             file.write(data)

@@ -24,6 +24,7 @@ from rotor.support.arrays import Array, Booleans, ShortRepr
 from rotor.support.markup import group, tag
 from rotor.support.table import LEFT, Column, table
 from rotor.support.units import power_unit
+from rotor.support.user_input import shorten
 from rotor.trim.newton import Guess
 from rotor.trim.power import HubMoment, PowerBudget
 
@@ -367,5 +368,5 @@ class Solution:
 def require_solution(given: object) -> Solution:
     """The argument, if it is a solution; TypeError with one sentence otherwise."""
     if not isinstance(given, Solution):
-        raise TypeError(f"solution is {given!r:.80}: give what rotor.solve returns")
+        raise TypeError(f"solution is {shorten(repr(given), 80)}: give what rotor.solve returns")
     return given

@@ -164,6 +164,8 @@ BAD = {
     "1;linear:-8;mu=NaN": "advance_ratio is nan, outside",
     "1;linear:-8;wings=2": "unknown key 'wings'",
     "1;linear:-8;inflow=magic": "magic",
+    '1;linear:-8;mass="\\ud800"': "'\\ud800' holds half of a character: write it whole",
+    "1;linear:-8;speed_kt=90": "unknown key 'speed_kt': write advance_ratio",
     "1;bent:3": "is not known",
     "1;linear:-8;mu=0.47": "Adv. ratio µ is 0.47, outside this page's 0…0.45",
     "1;linear:-8;elements=49": "asks for 49 blade elements and the usual azimuths",

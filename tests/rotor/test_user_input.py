@@ -13,7 +13,7 @@ from rotor.files.design_file import load_design, parse_design
 from rotor.files.rotor_file import load_rotor
 from rotor.optimisation.objective import read_mission
 from rotor.study.study_file import read_study
-from rotor.support.user_input import check_writable, make_folder, read_text, refusing, write_whole
+from rotor.support.user_input import check_writable, did_you_mean, make_folder, read_text, refusing, write_whole
 
 READERS = {
     "design": load_design,
@@ -106,6 +106,7 @@ def test_every_failure_becomes_a_sentence(error: Exception):
     "arguments",
     [
         ["solve", "--case", ""], ["solve", "--rotor", ""], ["solve", "--twist", " "], ["solve", "--preset", ""],
+        ["solve", "--save", ""], ["actuator", "--what-would-pay", "--plot", ""],
         ["sweep", "--mu", "0.2", "--csv", ""], ["sweep", "--mu", "0.2", "--twist", "linear:-8", ""], ["study", ""],
         ["solve", "--mu", DIGITS], ["solve", "--mass-kg", DIGITS], ["sweep", "--mu", DIGITS],
         ["solve", "--case", "a" * 300], ["solve", "--rotor", "a" * 300], ["solve", "--rotor", "a\0b"],
@@ -115,6 +116,29 @@ def test_every_failure_becomes_a_sentence(error: Exception):
 )  # fmt: skip
 def test_the_command_line_refuses_in_one_short_line(arguments: list[str], refused: Callable[..., str]):
     assert len(refused(*arguments)) <= 410
+
+
+DESIGNS = {
+    b"": "is not JSON (it is empty): give",
+    b" \r\n": "is not JSON (it is empty): give",
+    b"mu,power\n0.1,2\n": "is not JSON (line 1, column 1: Expecting value): give",
+    '{"mass_kg": 8000, "é": 1}'.encode("cp1252"): "(not UTF-8 text): give",
+    b'{"mass_kg": "\\ud800"}': "'\\ud800' holds half of a character: write it whole",
+    b'{"a\\ud800": 1}': "holds half of a character: write it whole",
+    b'{"mu": 0.2}': "unknown key 'mu': write advance_ratio",
+    b'{"speed_kt": 90}': "unknown key 'speed_kt': write advance_ratio",
+}
+
+
+@pytest.mark.parametrize("content", DESIGNS)
+def test_a_design_file_is_refused_with_what_is_wrong_in_it(content: bytes):
+    assert DESIGNS[content] in sentence_of(parse_design, content, "a.json")
+
+
+def test_the_name_that_begins_as_given_is_meant():
+    assert did_you_mean("lin", ("spline", "linear", "points")) == "; did you mean 'linear'?"
+    assert did_you_mean("MFC", ("MFC_P2", "AFC")) == "; did you mean 'MFC_P2'?"
+    assert did_you_mean("", ("linear",)) == ""
 
 
 @pytest.mark.parametrize("command", ["sweep --mu 0.1:0.3:0.01", "schedule --concept all"])

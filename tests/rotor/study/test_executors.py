@@ -188,12 +188,14 @@ def group_lives(group: int) -> bool:
     return True
 
 
-def test_error_without_a_scheduler_at_the_address_is_one_sentence(tmp_path: Path):
-    address = "tcp://127.0.0.1:9"
+@pytest.mark.parametrize(
+    ("address", "remedy"), [("tcp://127.0.0.1:9", "dask scheduler"), ("tls://127.0.0.1:9", "set distributed.comm.tls")]
+)
+def test_error_without_a_scheduler_at_the_address_is_one_sentence(address: str, remedy: str, tmp_path: Path):
     done = finished(study_file(tmp_path), tmp_path / "out", "--scheduler", address)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert address in done.stderr
-    assert "dask scheduler" in done.stderr
+    assert remedy in done.stderr
 
 
 FEW = STUDY.replace('"6000:9000:100"', "[7000, 8000]").replace('"0.05:0.34:0.01"', '"0.1:0.3:0.05"').replace("25", "5")
