@@ -22,7 +22,7 @@
         title="Power and trim in detail">
         <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div>
       <button class="rxf-held" data-do="drawer" data-value="trust" data-explorer="held"
-        title="Rotors that did not set the size of ±. Click to see how far to trust it" ${power.coverage ? '' : 'hidden'}>
+        title="Rotors that did not set the size of ±. Click for how far to trust it" ${power.coverage ? '' : 'hidden'}>
         ${text(power.coverage)}</button></div>
       <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
