@@ -29,7 +29,7 @@ from explorer.text.status import tiny
 from rotor import Solution, load_design, solve
 from rotor.support.markup import Markup, group, tag
 from rotor.support.terminal import OneLineParser, command_words, run_command
-from rotor.support.user_input import write_output
+from rotor.support.user_input import check_suffix, write_output
 from rotor.trim.doubt import decimals
 
 
@@ -157,6 +157,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _run(options: argparse.Namespace) -> int:
+    check_suffix(options.out, ".html")
     if options.live:
         if len(options.designs) > 1:
             raise ValueError(f"--live takes one design, not {len(options.designs)}: make a file of each")

@@ -235,3 +235,10 @@ class TestCommand:
     def test_a_file_that_is_not_there_is_one_line(self, capsys: pytest.CaptureFixture[str]):
         assert command.main(["report", "nowhere.json"]) == 2
         assert capsys.readouterr().err.count("\n") == 1
+
+    def test_a_file_of_another_kind_is_refused(self, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+        """It held HTML."""
+        NOW.design.save(tmp_path / "now.json")
+        assert command.main(["report", str(tmp_path / "now.json"), "--out", str(tmp_path / "now.pdf")]) == 2
+        assert "write '" in capsys.readouterr().err
+        assert not (tmp_path / "now.pdf").exists()
