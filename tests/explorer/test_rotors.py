@@ -118,7 +118,7 @@ def test_designs_of_other_rotors_in_addresses_and_files():
     assert inputs_of(read) == own
     assert share.inputs_from(share.KEPT, json.dumps(own.design().to_dict())) == own
     for kept in (None, "{", '{"rotor": 1}'):
-        with pytest.raises(ValueError, match=r"sender's own|cannot be read|rotor"):
+        with pytest.raises(ValueError, match=r"sender's own|cannot be read|is not JSON|rotor"):
             share.inputs_from(share.KEPT, kept)
 
 

@@ -140,4 +140,4 @@ def test_the_chip_says_how_well_the_region_is_validated():
     assert "in hover only" in uh60a.sentence
     for rotor in ("castles-gray", "castles-gray-twisted"):
         stand = validated(solve(make_design(rotor=rotor, mu=0.0, trim="wind-tunnel", stand={"ct_over_sigma": 0.08})))
-        assert "No usable measurement of what twist saves is in this project." in stand.sentence
+        assert "This project has no usable measurement of what twist saves." in stand.sentence

@@ -38,7 +38,7 @@ def verdicts(met: dict[str, bool], names: tuple[str, ...]) -> str:
 def cells(row: TrustRow) -> tuple[str, str]:
     """How far a rotor's power is off, and how many points its band holds."""
     off, inside = row.shown.partition(" (")[0].split(", ")
-    return off.removesuffix(" in the mean"), inside.replace(" within", ",")
+    return off.removesuffix(" on average"), inside.replace(" within", ",")
 
 
 def section() -> str:
