@@ -128,6 +128,6 @@ def frame_line(run: SearchRun, cursor: int, units: Units = SI) -> Markup:
     """What the scrubber points at."""
     frame = run.frames[cursor]
     power = frame.power if frame.power < 1e12 else None  # A design that did not trim has no power.
-    what = "starting design" if cursor == 0 else f"design {frame.evaluation}"
+    what = "starting design" if cursor == 0 else f"step {cursor} of {len(run.frames) - 1}"
     line = tag("span", what), tag("span", None if power is None else total_words(power, units))
     return tag("div.rx.rx-line.rx-dim.rx-small", line, data_explorer="frame")
