@@ -58,7 +58,7 @@ class Session:
         self._curves = PowerCurves()
         self._framed = -math.inf
         """When the last update ended."""
-        self._idle = ThreadPoolExecutor(1, "idle")
+        self._waits = ThreadPoolExecutor(1, "idle")  # Presses go on meanwhile.
         self._rough = self._settling = False
         """Whether the latest solution is one of a moving slider; whether the next update solves to the end."""
         # A link with A wakes it before the page is whole.
@@ -69,7 +69,7 @@ class Session:
         self._baseline = solver.BaselineCache(by=self.page.context.analyses.solve)
 
     def start(self) -> None:
-        self.page.context.bridge.on("idle", self._answer_when_idle)
+        self.page.context.bridge.on("idle", lambda asked: self._waits.submit(self._answer_when_idle, asked))
         self.page.context.bridge.on("seen", self._see, at_once=True)
         self.page.start()
         self._wake()
@@ -79,7 +79,7 @@ class Session:
         self._all_changed = True
         self.page.stop()
         self._worker.stop()
-        self._idle.shutdown(wait=False, cancel_futures=True)
+        self._waits.shutdown(wait=False, cancel_futures=True)
 
     @one_blas_thread()  # The pictures too: in a notebook's process they would take ten times as long.
     def _update(self) -> Iterator[float] | None:
@@ -221,9 +221,6 @@ class Session:
     def _answer_when_idle(self, asked: IdlePress) -> None:
         """Give the page its number back once all that it sent before is answered (`RX.idle` of frame.js)."""
         wait_for_callbacks(self._client)
-        self._idle.submit(self._tell_when_idle, asked)  # Presses go on meanwhile.
-
-    def _tell_when_idle(self, asked: IdlePress) -> None:
         self._worker.until_answered(asked.wholly, lambda: any(is_waiting() for is_waiting in self.page.context.waiting))
         self.page.context.bridge.set(idle=asked.serial)
 

@@ -129,7 +129,6 @@
     return `<span class="rxf-price ${stale ? 'rxf-stale' : ''}">${said}</span>${press
       && `<button class="rxf-push" data-do="unstall">${text(press)}</button>`}`;
   };
-  // What stands low, in a menu of plain text.
   const low = name => text(name).replace(/λi|_n|cn$/g, at => ({'λi': 'λᵢ', _n: 'ₙ', cn: 'cₙ'})[at] ?? at);
   RX.paint(['field', 'plan', 'prices'], (field, plan, prices) => {
     const card = document.querySelector('.rxf-field');
