@@ -10,6 +10,7 @@ import math
 import threading
 import time
 from collections.abc import Generator, Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from functools import partial
 from typing import TypeVar
@@ -57,6 +58,7 @@ class Session:
         self._curves = PowerCurves()
         self._framed = -math.inf
         """When the last update ended."""
+        self._waits = ThreadPoolExecutor(1, "idle")  # Presses go on meanwhile.
         self._rough = self._settling = False
         """Whether the latest solution is one of a moving slider; whether the next update solves to the end."""
         # A link with A wakes it before the page is whole.
@@ -67,7 +69,7 @@ class Session:
         self._baseline = solver.BaselineCache(by=self.page.context.analyses.solve)
 
     def start(self) -> None:
-        self.page.context.bridge.on("idle", self._answer_when_idle)
+        self.page.context.bridge.on("idle", lambda asked: self._waits.submit(self._answer_when_idle, asked))
         self.page.context.bridge.on("seen", self._see, at_once=True)
         self.page.start()
         self._wake()
@@ -77,6 +79,7 @@ class Session:
         self._all_changed = True
         self.page.stop()
         self._worker.stop()
+        self._waits.shutdown(wait=False, cancel_futures=True)
 
     @one_blas_thread()  # The pictures too: in a notebook's process they would take ten times as long.
     def _update(self) -> Iterator[float] | None:

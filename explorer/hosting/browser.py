@@ -64,14 +64,14 @@ class Bridge:
         self._client = client
         self._lock = threading.Lock()
         self._sent: dict[str, bytes] = {}
-        self._actions: dict[str, Callable[[Any], None]] = {}
+        self._actions: dict[str, Callable[[Any], object]] = {}
         self._at_once: set[str] = set()
         self._worker = ThreadPoolExecutor(1, f"frame-{client.client_id}")
         self._heard = client.gui.add_text("frame", "", visible=False)
         self._heard.on_update(self._hear)
         call(client, "RX.begin", widget_id(self._heard))
 
-    def on(self, name: str, action: Callable[[Any], None], at_once: bool = False) -> None:
+    def on(self, name: str, action: Callable[[Any], object], at_once: bool = False) -> None:
         """Call `action` with the value that comes with each press of `name`, which `presses.PRESSES` lists.
 
         ValueError for a name that is taken, or not listed.
@@ -113,7 +113,7 @@ class Bridge:
         except RuntimeError:
             return  # The browser has left meanwhile.
 
-    def _act(self, action: Callable[[Any], None], name: str, value: Any) -> None:
+    def _act(self, action: Callable[[Any], object], name: str, value: Any) -> None:
         try:
             action(value)
         except NoDesign as error:  # The page shows the sentence.

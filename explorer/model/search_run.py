@@ -138,7 +138,6 @@ class SearchRequest:
 class SearchFrame:
     """A design that was the best so far."""
 
-    evaluation: int
     power: float
     """By the objective of the search [W]."""
     design: Design
@@ -188,16 +187,16 @@ class SearchRun:
         for report in self.record.reports:
             if isinstance(report, StartPower):
                 power = math.inf if report.power is None else report.power
-                frames.append(SearchFrame(0, power, self.search.design))
+                frames.append(SearchFrame(power, self.search.design))
                 continue
             if not isinstance(report, Progress) or report.best_power is None or report.best_parameters is None:
                 continue
             # The concept's first may be no better than the blade it began from; it is shown all the same.
             if len(frames) == 1 or report.best_power < frames[-1].power:
                 design = self.concept.apply(self.search.design, report.best_parameters)
-                frames.append(SearchFrame(report.evaluation, report.best_power, design))
+                frames.append(SearchFrame(report.best_power, design))
         if optimum is not None and optimum.best is not None and frames and optimum.design != frames[-1].design:
-            frames.append(SearchFrame(optimum.evaluations, optimum.best.power, optimum.design))
+            frames.append(SearchFrame(optimum.best.power, optimum.design))
         return tuple(frames)
 
     @property

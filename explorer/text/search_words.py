@@ -126,8 +126,7 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
 
 def frame_line(run: SearchRun, cursor: int, units: Units = SI) -> Markup:
     """What the scrubber points at."""
-    frame = run.frames[cursor]
-    power = frame.power if frame.power < 1e12 else None  # A design that did not trim has no power.
-    what = "starting design" if cursor == 0 else f"design {frame.evaluation}"
-    line = tag("span", what), tag("span", None if power is None else total_words(power, units))
+    power = run.frames[cursor].power  # Without bound where the design did not trim.
+    what = "starting design" if cursor == 0 else f"step {cursor} of {len(run.frames) - 1}"
+    line = tag("span", what), tag("span", total_words(power, units) if power < 1e12 else None)
     return tag("div.rx.rx-line.rx-dim.rx-small", line, data_explorer="frame")

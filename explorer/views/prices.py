@@ -7,7 +7,7 @@ from typing import Any
 from explorer.model.units import TONNE, Units, number
 from explorer.parts.stage import RegionPrice
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelWork, Tell
-from explorer.views.waterfall import switched_alone
+from explorer.views.waterfall import cost_words, switched_alone
 from rotor.study.series import WaterfallStep
 from rotor.trim.stall_edge import stall_edges
 
@@ -48,10 +48,8 @@ def prices(now: PageState) -> dict[str, Any]:
 
 def _cost(step: WaterfallStep, units: Units, on: bool) -> str:
     """From the trim without the effect and that with all; on: whether the page has the effect."""
-    if step.note:
-        return step.note.capitalize()
-    if step.added is None:
-        return "No trim without it"
+    if step.note or step.added is None:
+        return cost_words(step, units)
     does = "save" if step.added > 0.0 else "cost"
     return f"{f'{does.capitalize()}s' if on else f'Would {does}'} {units.watts(abs(step.added), 1)}"
 

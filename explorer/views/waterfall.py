@@ -187,7 +187,7 @@ COSTS = Panel(costs, lambda ui: bool(ui.drawer) or not ui.lifted, works=waterfal
 def cost_words(step: WaterfallStep, units: Units) -> str:
     """What a switch adds to the power, from the trim without it."""
     if step.note:
-        return step.note
+        return step.note[:1].upper() + step.note[1:]
     if step.added is None:
-        return "does not trim without it"
+        return "No trim without it"
     return f"{units.watts(-step.added, 1, sign=True)} here"

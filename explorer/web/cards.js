@@ -129,13 +129,14 @@
     return `<span class="rxf-price ${stale ? 'rxf-stale' : ''}">${said}</span>${press
       && `<button class="rxf-push" data-do="unstall">${text(press)}</button>`}`;
   };
+  const low = name => text(name).replace(/λi|_n|cn$/g, at => ({'λi': 'λᵢ', _n: 'ₙ', cn: 'cₙ'})[at] ?? at);
   RX.paint(['field', 'plan', 'prices'], (field, plan, prices) => {
     const card = document.querySelector('.rxf-field');
     card.hidden = !field;
     if (!field) return;
     const menu = card.querySelector('select'), scale = part('scale');
     const {regions, difference, wipe} = field;
-    write(menu, field.fields.map(name => `<option>${text(name)}</option>`).join(''));
+    write(menu, field.fields.map(name => `<option value="${text(name)}">${low(name)}</option>`).join(''));
     if (menu.value !== field.field) menu.value = field.field;
     menu.disabled = field.held;
     part('unit').textContent = field.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.

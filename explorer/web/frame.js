@@ -69,7 +69,7 @@
         while (bridge === null || telling) await drawn();  // What cards cover moves the camera.
         const session = sessions;
         RX.send('idle', [asked = serial + 1, wholly]);
-        while (state.idle !== asked && session === sessions) await drawn();
+        while ((state.idle ?? -1) < asked && session === sessions) await drawn();
         if (session !== sessions) asked = -1;
         await drawn();
         await drawn();

@@ -138,10 +138,10 @@ class Display:
 
 
 def _shares(solution: Solution, view: ViewState) -> dict[str, str]:
-    area = solution.stalled_area
-    stall = {"stall": f"{number(100.0 * area, 1)} %"} if area else {}
+    stall = {"stall": f"{number(100.0 * area, 1)} %"} if (area := solution.stalled_area) else {}
     shown = {name: lines for name, (_, lines) in OUTLINES.items() if getattr(view, name)}
-    return {name: "none" for name, lines in shown.items() if not len(lines(solution))} | stall
+    none = {"stall": "none" if solution.design.models.stall else "not modelled"}
+    return {name: none.get(name, "none") for name, lines in shown.items() if not len(lines(solution))} | stall
 
 
 @cache

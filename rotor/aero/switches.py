@@ -50,9 +50,9 @@ def no_effect(design: Design, name: str) -> str:
         case "fuselage" if design.flight_speed == 0.0:
             return "no drag in hover"
         case "tip_loss" if not hovering and inflow.keeps_tips:
-            return "tip loss is included in the wake"
+            return "included in the wake"
         case "hub_loss" if not hovering and inflow.load_dependent:
-            return "root loss is included in the wake"
+            return "included in the wake"
         case "reverse_flow" if design.condition.advance_ratio <= design.rotor.blade.root_cutout:
             return "no blade element is in reverse flow at this speed"
         case "surface_drag" if design.rotor.blade.surface_drag == 1.0:

@@ -73,6 +73,8 @@ class TestSearchRun:
         assert powers == sorted(powers, reverse=True)
         assert run.optimum.status is Status.CONVERGED
         assert run.frames[-1].design == run.optimum.design
+        last = len(run.frames) - 1  # The words count what the slider counts.
+        assert f"step {last} of {last}" in search_text.frame_line(run, last)
         for frame in (run.frames[0], run.frames[len(run.frames) // 2], run.frames[-1]):
             assert solve(frame.design).power.total == pytest.approx(frame.power, rel=1e-7)
         assert run.start_power == pytest.approx(solve(run.search.design).power.total, rel=1e-9)

@@ -17,6 +17,7 @@ from explorer.picture.plan import plan, region_shares
 from explorer.picture.polar import CLEAR_OF_REVERSE, DrawnSolution, polar_grid
 from explorer.widgets.display import Display
 from rotor import Solution, make_design, solve
+from rotor.aero.switches import with_switches
 from rotor.support.arrays import Array
 from tests.fake_bridge import Bridge
 
@@ -109,8 +110,8 @@ def test_the_key_says_which_regions_the_disk_has_none_of():
     """Only of those that are shown: the others are off."""
     page: Any = Bridge()
 
-    def told(mu: float, **view: Any) -> Mapping[str, str]:
-        solution, shown = solve(make_design(mu=mu)), ViewState(**view)
+    def told(mu: float, off: tuple[str, ...] = (), **view: Any) -> Mapping[str, str]:
+        solution, shown = solve(with_switches(make_design(mu=mu), off)), ViewState(**view)
         display = Display(page, shown, lambda: None, lambda: None)
         display.show_range(ALPHA, (0.0, 9.0), False, (False, False))
         display.show(SessionState(Inputs(), shown, solution, solution, None))
@@ -119,4 +120,5 @@ def test_the_key_says_which_regions_the_disk_has_none_of():
     assert told(0.0) == dict.fromkeys(("stall", "reverse_flow", "drag_divergence"), "none")
     assert told(0.0, stall=False, reverse_flow=False, drag_divergence=False) == {}
     assert told(0.2) == {"stall": "0.5 %", "drag_divergence": "none"}
+    assert told(0.2, ("stall",))["stall"] == "not modelled"
     assert told(0.3) == {"stall": "0.0 %"}  # As the plan says beside its outline.

@@ -50,14 +50,14 @@ class TestDrawing:
     def test_what_cannot_matter_says_why(self):
         steps = waterfall(coarse(0.0))
         assert "no drag in hover" in waterfall_chart(steps.steps)
-        assert any("hover is the same at every azimuth" in cost_words(step, SI) for step in steps.alone)
+        assert any("Hover is the same at every azimuth" in cost_words(step, SI) for step in steps.alone)
 
     def test_a_step_that_does_not_trim_is_named(self, found: Waterfall):
         steps = (found.steps[0], replace(found.steps[1], budget=None, message="Too <heavy>."))
         svg = waterfall_chart(steps)
         assert "has no trim" in svg
         assert "Too &lt;heavy&gt;." in svg
-        assert cost_words(steps[1], SI) == "does not trim without it"
+        assert cost_words(steps[1], SI) == "No trim without it"
 
 
 def now_at(mu: float) -> PageState:

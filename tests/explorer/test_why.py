@@ -104,7 +104,7 @@ def test_a_known_cause_is_named(before: dict[str, Any], after: dict[str, Any], s
 @pytest.mark.parametrize(
     ("flight", "switch", "said"),
     [
-        (SLOW, "tip_loss", r"no change in power \(tip loss is included in the wake\)\.$"),
+        (SLOW, "tip_loss", r"no change in power \(included in the wake\)\.$"),
         ({"inflow": "local-momentum"}, "tip_loss", "^Without tip loss: induced −"),
         ({"mu": 0.37}, "compressibility", r"drag divergence disappeared\.$"),
         (SLOW, "hub_loss", r"^Without root loss: no change in power \("),
