@@ -139,7 +139,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}"]
     found["mass"].append(f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}")
     read("mass", "# kg:", rail["actuator.numbers"])
-    read("mass", "^With # kg on board", part.sentence)
+    read("mass", "^# kg on board", part.sentence)
     read("mass", "# kg:", report)
     staged = replace(now, hand=replace(now.hand, on_stage=True))
     kinds = re.sub(r"<[^>]*>", " ", PAY.view(staged)["actuator.kinds"].replace("</tr>", "\n"))
@@ -157,11 +157,11 @@ def screen(now: PageState) -> dict[str, list[str]]:
         found[share.part] = [share.value]
     found["tip"] = [part.tip, flight["flight"].tip]
     read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
-    read("tip", rf", here by ({NUMBER}°)\.", part.sentence)
+    read("tip", f"turn the tip by ({NUMBER}°)", part.sentence)
     if now.hand.actuator.driven:
         read("tip", f"({NUMBER}°) at the tip", words)
     found["reach"] = [part.reach]
-    read("reach", rf"can turn by ({NUMBER}…{NUMBER}°),", part.sentence)
+    read("reach", rf"of ({NUMBER}…{NUMBER}°)\.", part.sentence)
     said = line_text(now)
     read("power", "needs # ±", said)
     read("power", ": # kW, disk", flight["flight"].words)
