@@ -171,7 +171,7 @@ def test_nothing_can_be_changed_while_the_server_is_away(twisted: Page, proxy: P
     proxy.cut()
     page.wait_for_selector("#rx-gone")
     said = page.locator("#rx-gone").inner_text()
-    assert "You cannot change anything meanwhile" in said
+    assert "You cannot change anything until it returns" in said
     before = field.input_value()
     page.mouse.move(x + 83, y)
     page.mouse.up()
