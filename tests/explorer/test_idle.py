@@ -1,6 +1,7 @@
 """A page that is idle shows what workers answered, too."""
 
 import asyncio
+import threading
 
 from explorer.app import App
 from explorer.views.strip import bands_call
@@ -27,10 +28,16 @@ def test_a_page_that_waits_until_it_is_idle_takes_presses_meanwhile(app: App):
         visitor = await arrived(app.address)
         await visitor.idle()
         (session,) = app.sessions
-        busy = True
-        session.page.context.waiting.append(lambda: busy)
+        busy, asked = True, threading.Event()
+
+        def is_waiting() -> bool:
+            asked.set()
+            return busy
+
+        session.page.context.waiting.append(is_waiting)
         before = visitor.frame["idle"]
         waits = asyncio.create_task(visitor.idle())
+        assert await asyncio.to_thread(asked.wait, 60.0)
         await visitor.press("drawer", "settings")
         await visitor.until(lambda: visitor.frame["bar"]["drawer"] == "settings")
         assert visitor.frame["idle"] == before
