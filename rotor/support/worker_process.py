@@ -56,7 +56,8 @@ def _inherited() -> Generator[None]:
     main = sys.modules["__main__"]
     spec, main.__spec__ = main.__spec__, ModuleSpec("__main__", None)
     unset = [name for name in _THREADS if name not in os.environ]
-    os.environ.update(dict.fromkeys(unset, "1"))
+    for name in unset:  # Not in os.environ, which other threads may be reading.
+        os.putenv(name, "1")
     mask: set[int] | None = None
     if hasattr(signal, "pthread_sigmask"):
         from multiprocessing.resource_tracker import ensure_running
@@ -69,7 +70,7 @@ def _inherited() -> Generator[None]:
         if mask is not None:
             signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         for name in unset:
-            del os.environ[name]
+            os.unsetenv(name)
         main.__spec__ = spec
 
 

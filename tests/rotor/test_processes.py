@@ -28,6 +28,7 @@ from rotor.support.processes import (
     WorkerLost,
     run_tasks,
 )
+from rotor.support.worker_process import _inherited
 from tests.tools.measured import memory
 from tests.waited import until
 
@@ -149,6 +150,17 @@ def test_calls_return_raise_and_are_made_by_other_processes_with_one_blas_thread
         assert pool.submit(pow, 2, 3).result(PATIENCE) == 8
     with pytest.raises(RuntimeError, match="shut down"):
         pool.submit(pow, 2, 3)
+
+
+def test_a_process_that_starts_leaves_the_environment_to_other_threads(monkeypatch: pytest.MonkeyPatch):
+    """One that read it meanwhile ended with `KeyError: 'OMP_NUM_THREADS'`."""
+    monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
+    before = dict(os.environ)
+    with _inherited():
+        assert dict(os.environ) == before
+    with Processes(1) as pool:
+        assert pool.submit(os.getenv, "OMP_NUM_THREADS").result(PATIENCE) == "1"
+    assert subprocess.run(["printenv", "OMP_NUM_THREADS"], capture_output=True).stdout == b""
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="the system does not tell what processes share")
