@@ -26,7 +26,7 @@ STUDY = 'title = "small"\n[axes]\nmu = [0.1, 0.2]\n[fixed]\ntwist = "linear:-8"\
 COMMANDS = {
     "sweep": ("rotor", "sweep", "--mu", "0.1:0.2:0.1", "--csv", "OUT/out.file"),
     "schedule": ("rotor", "schedule", "--concept", "linear", "--mu", "0.1,0.2", "--csv", "OUT/out.file"),
-    "report": ("explorer", "report", "IN/a.json", "--out", "OUT/out.file"),
+    "report": ("explorer", "report", "IN/a.json", "--out", "OUT/out.html"),
     "blade": ("explorer", "blade", "--out", "OUT/blade"),
     "study": ("rotor", "study", "IN/small.toml", "--workers", "1", "--out", "OUT/study"),
     "reproduce": ("rotor", "reproduce", "OUT/blade", "--figure", "table 5.1"),
@@ -53,11 +53,11 @@ def limited(name: str, most: str, folder: Path) -> subprocess.CompletedProcess[s
 def test_on_a_full_disk_a_command_ends_with_a_sentence_and_what_was_there_stays(name: str, tmp_path: Path):
     """A limit of 100 bytes a file stands for the disk: the write that exceeds it fails as one without room does."""
     (tmp_path / "out").mkdir()
-    there = [tmp_path / "out" / file for file in ("out.file", "out.json")]
+    there = [tmp_path / "out" / file for file in ("out.file", "out.html", "out.json")]
     for file in there:
         file.write_text("precious", encoding="utf-8")
     done = limited(name, "100", tmp_path)
-    assert [file.read_text(encoding="utf-8") for file in there] == ["precious"] * 2
+    assert [file.read_text(encoding="utf-8") for file in there] == ["precious"] * 3
     assert not list((tmp_path / "out").rglob("*.part"))
     assert not list((tmp_path / "out").glob("blade/*"))
     if name == "save":  # A function of Python's own kind of error.
