@@ -194,8 +194,9 @@
       button.ariaExpanded = String(name === 'more' ? more() : open && (name === 'rail' || name === page.dataset.tab));
     }
   }
-  // Any press closes what stands below "More", after it has been heard.
+  // Any press closes what stands below "More", after it has been heard; a notification that closes is no press.
   document.addEventListener('click', event => {
+    if (closest(event, '.mantine-Notification-root')) return;
     page.toggleAttribute('data-more', Boolean(closest(event, '[data-page=more]')) && !more());
     sayOpen();
   });
