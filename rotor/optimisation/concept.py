@@ -15,7 +15,7 @@ from rotor.support.arrays import Array
 
 Values = Sequence[float] | Array
 """Parameters of a concept in its order, SI."""
-Unit = Literal["rad/R", "rad/R²", "rad", "R"]
+Unit = Literal["rad/R", "rad/R²", "rad/R³", "rad", "R"]
 Motion = Literal["tilt", "bend", "slide", "lift"]
 
 

@@ -35,7 +35,7 @@ class CubicTwist(SpecTwist):
             "cubic", "Cubic", "A cubic: its coefficient, and the twist from root to tip.", CubicTwist,
             (
                 Parameter(  # θ' = a (3 r² − 1) + D.
-                    "coefficient", "Coefficient", "rad/R²", -0.5, 0.5, Handle("bend"), (-1.0, 2.0), 5.0,
+                    "coefficient", "Coefficient", "rad/R³", -0.5, 0.5, Handle("bend"), (-1.0, 2.0), 5.0,
                     "Third-order coefficient.",
                 ),
                 Parameter(
@@ -93,7 +93,7 @@ def test_the_best_cubic_needs_no_more_than_the_best_line():
 def test_menu_sliders_link_and_undo_of_a_cubic():
     assert LAWS["cubic"].title == "Cubic"
     labels = [ROWS[name].slider.label for name in LAWS["cubic"].inputs]
-    assert labels == ["Coefficient [°/R²]", "Root to tip [°]"]
+    assert labels == ["Coefficient [°/R³]", "Root to tip [°]"]
     assert hint("cubic_coefficient") == "Third-order coefficient."
     inputs = Inputs(law="cubic", cubic_coefficient=-3.5, cubic_difference=-9.0)
     design = inputs.design()
