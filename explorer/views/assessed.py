@@ -53,7 +53,7 @@ def _gives(one: ActuatedBlade, units: Units) -> str:
 def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
-    moves = f"{total} on board turn the tip by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
+    moves = f"{total} on board; tip turned by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
     forbidden = one.installed.actuator.forbidden
     moves += f" It is {forbidden}." if forbidden else ""
     if flight is not None:

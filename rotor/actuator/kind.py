@@ -160,7 +160,7 @@ class Actuator(ABC):
     @property
     def caveats(self) -> tuple[str, ...]:
         """Caveats of the actuator's data, one sentence each."""
-        return self.provenance.warnings(self.id)
+        return self.provenance.warnings(self.name)
 
     @property
     def on_skin(self) -> bool:

@@ -100,7 +100,7 @@ class PiezoPly(Actuator):
     def caveats(self) -> tuple[str, ...]:
         return (
             *super().caveats,
-            f"{self.id} has {100.0 * self.hysteresis:.0f} % hysteresis and creeps, so holding a twist needs strain "
+            f"{self.name}: {100.0 * self.hysteresis:.0f} % hysteresis and creep, so holding a twist needs strain "
             "feedback or charge drive. Without voltage the blade returns to its built-in twist.",
         )
 

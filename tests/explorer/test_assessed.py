@@ -157,7 +157,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
         found[share.part] = [share.value]
     found["tip"] = [part.tip, flight["flight"].tip]
     read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
-    read("tip", f"turn the tip by ({NUMBER}°)", part.sentence)
+    read("tip", f"tip turned by ({NUMBER}°)", part.sentence)
     if now.hand.actuator.driven:
         read("tip", f"({NUMBER}°) at the tip", words)
     found["reach"] = [part.reach]
