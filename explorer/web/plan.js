@@ -96,7 +96,7 @@
     const of = side => sides[side] && `${sides[side]} · `;
     const ahead = flight && `<tspan fill="var(--rx-blade)" dx="12">↑ ${text(flight)}</tspan>`;
     const below = y + radius + 27, side = Math.max(radius, 172), words = [
-      [x, below, 'middle', `${of(0)}ψ 0°`],
+      [x, below, 'middle', `${width < 350 ? '' : of(0)}ψ 0°`],
       [Math.min(x + side, width - 8), below, 'end', `${of(1)}90°${sides[1] && ' →'}`],
       [Math.max(x - side, 8), below, 'start', `${sides[3] && '← '}${of(3)}270°`],
       [x, y - radius - 15, 'middle', `${of(2)}180°${ahead}`],

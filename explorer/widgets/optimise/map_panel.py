@@ -118,7 +118,7 @@ class MapPanel:
         if self._refused or record is None:
             return self._refused or _BEFORE
         levels = [report for report in record.reports if isinstance(report, MapLevel)]
-        line = "No design on this map has a trim." if levels else "Computing …"
+        line = "No design on this map has a trim." if levels else "Computing …" if record.under_way else "No map"
         if levels:
             grid = np.array(levels[-1].powers, dtype=float)
             conditions = record.task.objective.conditions
