@@ -83,7 +83,7 @@ def test_two_pieces_serve_command_tables_form_verdict_and_picture(capsys: pytest
     assert (record["actuator"], record["added_mass_kg"], record["voltages_v"]) == ("servo_flap", 200.0, [])
     assert "so this flap does not pay" in record["message"]
     assert {"temperature", "mass"} <= {limit["name"] for limit in record["limits"]}
-    assert "servo_flap: assumed values: moment." in record["caveats"]
+    assert "Servo flap: assumed values: moment." in record["caveats"]
     row = dict(zip(table_5_1().columns, table_5_1().rows[-1], strict=True))
     assert (row["actuator"], row["mode"], row["voltage V"]) == ("servo_flap", "servos, 300 N·m", "–")
 
