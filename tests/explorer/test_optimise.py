@@ -86,6 +86,7 @@ class TestSearchRun:
         run = SearchRun(begun(1).record.then(JobEnded(None, stopped=True)))
         assert not run.under_way
         assert "Stopped, nothing found yet" in search_text.standing(run)
+        assert "Not run yet" in search_text.standing(None)
         assert search_text.result(run) == ""
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
