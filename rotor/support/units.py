@@ -50,7 +50,7 @@ def degrees_text(angle: float) -> str:
     """The shortest number of degrees that is `angle` [rad] again; all digits where none is."""
     exact = math.degrees(angle)
     rounded = (round(exact, digits) for digits in range(15))
-    return digits_text(next((value for value in rounded if math.radians(value) == angle), exact) + 0.0)
+    return digits_text(next((value for value in rounded if math.radians(value) == angle), exact))
 
 
 def typographic(text: str) -> str:
