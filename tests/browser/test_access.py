@@ -134,6 +134,10 @@ def test_menu_drawers_lists_and_disk_answer_taps_on_a_phone(browser: Browser, ap
     page.wait_for_selector('[data-explorer="drawer"][data-name="probe"]')
     page.locator("[data-page=charts]").tap()
     watched.reads("around", r"0\.(49|5\d) R")
+    page.set_viewport_size({"width": 300, "height": 650})  # A telephone whose text is 130 % as large.
+    rotor, more = watched.box(".rxf-rotor"), watched.box("[data-page=more]")
+    assert rotor["width"] > 55.0
+    assert more["x"] + more["width"] <= 300.0
     assert watched.complaints == []
     page.context.close()
 

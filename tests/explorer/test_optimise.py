@@ -6,6 +6,7 @@ import math
 import re
 import xml.etree.ElementTree as ET
 from dataclasses import replace
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -23,6 +24,7 @@ from explorer.model.units import AVIATION, SI
 from explorer.text import search_words as search_text
 from explorer.text.readout import banded
 from explorer.views.notice import comparison
+from explorer.widgets.optimise.map_panel import MapPanel
 from explorer.workers.background import WorkRecord
 from explorer.workers.solver import MapLevel, MapTask, ScheduleTask, SearchTask, StartPower
 from rotor import doubt, make_design, solve
@@ -88,6 +90,12 @@ class TestSearchRun:
         assert "Stopped, nothing found yet" in search_text.standing(run)
         assert "Not run yet" in search_text.standing(None)
         assert search_text.result(run) == ""
+
+    def test_a_map_that_ends_before_its_first_level_is_none(self):
+        for late, words in ((True, "No map; time is up."), (False, "No map; stopped.")):
+            ended = begun(1).record.then(JobEnded(None, stopped=True, late=late))
+            panel: Any = SimpleNamespace(_refused="", _work={"map": ended})
+            assert MapPanel._line(panel) == words
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
         half = replace(run.record, reports=run.record.reports[: len(run.record.reports) // 2], result=None)
