@@ -39,7 +39,8 @@ from rotor.__main__ import build_parser  # noqa: E402
 from rotor.__main__ import main as rotor_main  # noqa: E402
 from rotor.support.processes import Processes  # noqa: E402
 
-Processes.warm = lambda pool: None  # Nobody opens the pages that notebooks start: their workers are not needed.
+# Nobody opens the pages that notebooks start: their workers are not needed.
+Processes.warm = lambda pool: None
 
 project = "rotor-explorer"
 author = "rotor-explorer contributors"
@@ -77,7 +78,14 @@ python_maximum_signature_line_length = 88
 
 def clear_figures(_settings: dict, _file: str):
     """Figures of notebooks without ground, in a grey that can be read on the light page and on the dark one."""
-    grey = ("text.color", "axes.labelcolor", "axes.titlecolor", "axes.edgecolor", "xtick.color", "ytick.color")
+    grey = (
+        "text.color",
+        "axes.labelcolor",
+        "axes.titlecolor",
+        "axes.edgecolor",
+        "xtick.color",
+        "ytick.color",
+    )
     matplotlib.rcParams.update(
         {"savefig.transparent": True, "legend.framealpha": 0.0, **dict.fromkeys(grey, "#7b7b7b")}
     )
@@ -108,7 +116,9 @@ class Picture(SphinxDirective):
     def run(self) -> list[nodes.Node]:
         module = pictures if hasattr(pictures, self.arguments[0]) else theory_figures
         self.env.note_dependency(module.__file__)
-        drawn = nodes.raw("", f'<div class="drawn">{getattr(module, self.arguments[0])()}</div>', format="html")
+        drawn = nodes.raw(
+            "", f'<div class="drawn">{getattr(module, self.arguments[0])()}</div>', format="html"
+        )
         return [drawn, *self.parse_content_to_nodes()]
 
 
@@ -136,12 +146,16 @@ class Commands(SphinxDirective):
     """`commands`: the help of every command, from the parsers themselves."""
 
     def run(self) -> list[nodes.Node]:
-        (rotor_commands,) = (a for a in build_parser()._actions if isinstance(a, argparse._SubParsersAction))
+        (rotor_commands,) = (
+            a for a in build_parser()._actions if isinstance(a, argparse._SubParsersAction)
+        )
         out: list[nodes.Node] = []
         for parser in (*rotor_commands.choices.values(), page_command._parser(), report._parser()):
             text = parser.format_help()
             title = parser.prog.removeprefix("python -m ")
-            section = nodes.section("", nodes.title(title, title), ids=[nodes.make_id(title)], names=[title])
+            section = nodes.section(
+                "", nodes.title(title, title), ids=[nodes.make_id(title)], names=[title]
+            )
             section += nodes.literal_block(text, text, language="text")
             out.append(section)
         return out
@@ -157,12 +171,17 @@ class InlineSvg(SphinxPostTransform):
             if node["uri"].endswith(".svg"):
                 drawn = Path(self.app.srcdir, node["uri"]).read_text(encoding="utf-8")
                 drawn = re.sub("<style>.*?</style>", "", drawn)
-                node.replace_self(nodes.raw("", f'<span class="drawn-file">{drawn}</span>', format="html"))
+                node.replace_self(
+                    nodes.raw("", f'<span class="drawn-file">{drawn}</span>', format="html")
+                )
 
 
-def as_restructured_text(_app: Sphinx, _what: str, _name: str, _value: object, _options: object, lines: list[str]):
+def as_restructured_text(
+    _app: Sphinx, _what: str, _name: str, _value: object, _options: object, lines: list[str]
+):
     """Docstrings are plain prose: indented blocks are code, `name: what it is` in a row of lines is a list."""
-    if "Parameters:" in lines:  # As an extension napoleon would also take a colon in an attribute's words for its type.
+    # As an extension napoleon would also take a colon in an attribute's words for its type.
+    if "Parameters:" in lines:
         lines[:] = GoogleDocstring(lines, Config()).lines()
         return
     out: list[str] = []
@@ -175,15 +194,29 @@ def as_restructured_text(_app: Sphinx, _what: str, _name: str, _value: object, _
             line = f"  {line.strip()}"
         elif indented and not inside:
             line = line.strip()
-        elif re.match(r"[a-z_]+(, [a-z_]+)*: ", line) and (not before or before.startswith(("- ", "  "))):
+        elif re.match(r"[a-z_]+(, [a-z_]+)*: ", line) and (
+            not before or before.startswith(("- ", "  "))
+        ):
             line = f"- {line}"
         elif line and inside and not indented and not line.startswith(" "):
-            line = f"  {line}" if before.startswith("- ") and re.match(r"- [a-z_]+(, [a-z_]+)*: ", before) else line
+            line = (
+                f"  {line}"
+                if before.startswith("- ") and re.match(r"- [a-z_]+(, [a-z_]+)*: ", before)
+                else line
+            )
         out.append(line)
     lines[:] = out
 
 
-def plain_defaults(_app: Sphinx, _what: str, _name: str, _value: object, _options: object, signature: str, back: str):
+def plain_defaults(
+    _app: Sphinx,
+    _what: str,
+    _name: str,
+    _value: object,
+    _options: object,
+    signature: str,
+    back: str,
+):
     """Fields with a factory: `<factory>` is no Python, and Sphinx links no type where it cannot read all."""
     return signature and signature.replace("<factory>", "..."), back
 
@@ -200,7 +233,9 @@ def source_links(_app: Sphinx, docname: str, content: list[str]):
 
 
 def mathml(self: HTML5Translator, node: nodes.math | nodes.math_block):
-    self.body.append(convert(node.astext(), display="block" if isinstance(node, nodes.math_block) else "inline"))
+    self.body.append(
+        convert(node.astext(), display="block" if isinstance(node, nodes.math_block) else "inline")
+    )
     raise nodes.SkipNode
 
 
@@ -226,7 +261,9 @@ def setup(app: Sphinx):
     app.add_directive("command-output", CommandOutput)
     app.add_directive("commands", Commands)
     app.add_post_transform(InlineSvg)
-    app.add_html_math_renderer("mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None))
+    app.add_html_math_renderer(
+        "mathml", inline_renderers=(mathml, None), block_renderers=(mathml, None)
+    )
     app.connect("autodoc-process-docstring", as_restructured_text)
     app.connect("autodoc-process-signature", plain_defaults)
     app.connect("source-read", source_links)

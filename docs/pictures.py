@@ -51,7 +51,9 @@ def twist_and_stall() -> str:
     design = rotor.make_design(mu=0.35)
     return "".join(
         disk_figure(
-            rotor.solve(design.with_twist(f"linear:{rate}")), "Angle of attack", f"Twist {rate}°".replace("-", "−")
+            rotor.solve(design.with_twist(f"linear:{rate}")),
+            "Angle of attack",
+            f"Twist {rate}°".replace("-", "−"),
         )
         for rate in (-4, -18)
     )
@@ -62,7 +64,9 @@ def shipped_rotors() -> str:
     series = []
     for name, colour in zip(("uh60a", "r22", "s61"), _COLOURS, strict=False):
         table = [
-            one for one in rotor.sweep(rotor.make_design(rotor=name), np.arange(0.08, 0.321, 0.04)) if one.converged
+            one
+            for one in rotor.sweep(rotor.make_design(rotor=name), np.arange(0.08, 0.321, 0.04))
+            if one.converged
         ]
         speeds = np.array([one.design.condition.advance_ratio for one in table])
         loading = np.array([one.power.total / one.design.condition.weight for one in table])

@@ -35,7 +35,10 @@ def conventions() -> str:
         (-116, 5, "end", "ψ = 270°: retreating"),
         (0, -144, "middle", "flight"),
     )
-    text = "".join(f'<text x="{x}" y="{y}" text-anchor="{end}">{escape(word)}</text>' for x, y, end, word in words)
+    text = "".join(
+        f'<text x="{x}" y="{y}" text-anchor="{end}">{escape(word)}</text>'
+        for x, y, end, word in words
+    )
     return (
         '<figure><figcaption><b>Azimuth, from above</b></figcaption><svg viewBox="-260 -185 520 325" role="img" '
         'aria-label="Azimuth, from above"><g fill="currentColor" font-size="14">'
@@ -67,7 +70,13 @@ def momentum() -> str:
     edge = vortex_ring_edge(0.0)
     series = (
         Line("ideal rotor", climb, power, COLOURS[1]),
-        Line("vortex ring state begins", np.array([edge, edge]), np.array([0.0, 1.4]), COLOURS[2], dashes=True),
+        Line(
+            "vortex ring state begins",
+            np.array([edge, edge]),
+            np.array([0.0, 1.4]),
+            COLOURS[2],
+            dashes=True,
+        ),
     )
     return _chart("Axial climb and descent", "V_c / v_h", "P / P_h", *series)
 
@@ -76,7 +85,10 @@ def twist_laws() -> str:
     """Twist laws over the radius."""
     r = np.linspace(0.13, 1.0, 80)
     laws = ("linear:-12", "quadratic:10,-12", "segments:-4,-14@0.6", "uh60a")
-    series = [Line(spec, r, np.degrees(rotor.parse_twist(spec)(r)), COLOURS[1 + k]) for k, spec in enumerate(laws)]
+    series = [
+        Line(spec, r, np.degrees(rotor.parse_twist(spec)(r)), COLOURS[1 + k])
+        for k, spec in enumerate(laws)
+    ]
     return _chart("Twist laws, zero at 0.75 R", RADIUS, "twist [°]", *series)
 
 
@@ -86,7 +98,9 @@ def sections() -> str:
     table, charts = load_section("sc1095"), []
     for name, label in (("cl", "C_l"), ("cd", "C_d")):
         series = [
-            Line(f"Mach {mach}", np.degrees(alpha), getattr(table(alpha, mach), name), COLOURS[1 + k])
+            Line(
+                f"Mach {mach}", np.degrees(alpha), getattr(table(alpha, mach), name), COLOURS[1 + k]
+            )
             for k, mach in enumerate((0.3, 0.5, 0.7))
         ]
         charts.append(_chart(f"SC1095, {label}", "angle of attack [°]", label, *series))
@@ -119,7 +133,10 @@ def velocities() -> str:
     disk = solution.disk
     k = int(np.argmin(np.abs(disk.r - 0.75)))
     psi = np.degrees(disk.psi)
-    series = (Line("U_T", psi, disk.u_t[k], COLOURS[1]), Line("U_P × 10", psi, 10.0 * disk.u_p[k], COLOURS[2]))
+    series = (
+        Line("U_T", psi, disk.u_t[k], COLOURS[1]),
+        Line("U_P × 10", psi, 10.0 * disk.u_p[k], COLOURS[2]),
+    )
     return _chart("At 0.75 R, µ 0.3", "azimuth ψ [°]", "velocity over ΩR", *series, ticks=AZIMUTH)
 
 
@@ -127,7 +144,9 @@ def inflow() -> str:
     """Induced inflow of three models."""
     names = ("pitt-peters", "local-momentum", "lifting-line")
     solved = (rotor.solve(rotor.make_design(mu=0.2, inflow=name)) for name in names)
-    return "".join(disk_figure(one, "Induced inflow λi", name) for one, name in zip(solved, names, strict=True))
+    return "".join(
+        disk_figure(one, "Induced inflow λi", name) for one, name in zip(solved, names, strict=True)
+    )
 
 
 def elastic() -> str:
@@ -152,7 +171,12 @@ def trim() -> str:
         "shaft tilt": "shaft_tilt",
     }
     series = [
-        Line(label, SPEEDS, np.degrees([getattr(one.controls, name) for one in table]), COLOURS[1 + k % 4])
+        Line(
+            label,
+            SPEEDS,
+            np.degrees([getattr(one.controls, name) for one in table]),
+            COLOURS[1 + k % 4],
+        )
         for k, (label, name) in enumerate(named.items())
     ]
     return _chart("Controls of level flight", MU, "angle [°]", *series)
@@ -161,7 +185,11 @@ def trim() -> str:
 def power() -> str:
     """Power by parts over speed."""
     table = _level(SPEEDS)
-    parts = {part: np.array([getattr(one.power, part) / 1e3 for one in table]) for part in PARTS if part != "climb"}
+    parts = {
+        part: np.array([getattr(one.power, part) / 1e3 for one in table])
+        for part in PARTS
+        if part != "climb"
+    }
     total = np.array([one.power.total / 1e3 for one in table])
     series = [Line("total", SPEEDS, total, "currentColor")]
     series += [Line(part, SPEEDS, values, PARTS[part]) for part, values in parts.items()]
@@ -173,7 +201,9 @@ def gradient() -> str:
     series = []
     for k, mu in enumerate((0.0, 0.2, 0.35)):
         found = power_gradient(rotor.solve(rotor.make_design(mu=mu)))
-        series.append(Line(f"µ {mu:g}", found.r, found.density * math.radians(1.0) / 1e3, COLOURS[1 + k]))
+        series.append(
+            Line(f"µ {mu:g}", found.r, found.density * math.radians(1.0) / 1e3, COLOURS[1 + k])
+        )
     return _chart("Power by local pitch, trimmed again", RADIUS, "kW per ° and per R", *series)
 
 
@@ -222,11 +252,15 @@ def actuator() -> str:
     design = rotor.make_design()
     series = []
     r = np.linspace(design.rotor.blade.root_cutout, 1.0, 60)
-    for k, (title, host) in enumerate({"as built": HostBlade(), "half the stiffness": HostBlade("new", 0.5)}.items()):
+    for k, (title, host) in enumerate(
+        {"as built": HostBlade(), "half the stiffness": HostBlade("new", 0.5)}.items()
+    ):
         installed = install(find_actuator("MFC_P1"), default_placement(), host, design.rotor)
         whole = installed.change(np.ones(len(installed.shapes)), r)
         series.append(Line(title, r, np.degrees(whole), COLOURS[1 + k]))
-    return _chart("MFC P1, two plies, over the whole voltage", RADIUS, "change of twist [°]", *series)
+    return _chart(
+        "MFC P1, two plies, over the whole voltage", RADIUS, "change of twist [°]", *series
+    )
 
 
 def _level(speeds: np.ndarray) -> rotor.SweepTable:

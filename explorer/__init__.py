@@ -18,7 +18,9 @@ if TYPE_CHECKING:
 __all__ = ("show",)
 
 
-def show(design: "Design", *, port: int = 0, browser: bool | None = None, hub: str | None = None) -> "RunningPage":
+def show(
+    design: "Design", *, port: int = 0, browser: bool | None = None, hub: str | None = None
+) -> "RunningPage":
     """Start the page on a design in the background of this process, on this machine only.
 
     port: where it listens; 0 takes a free one.

@@ -12,7 +12,8 @@ def _leave(number: int, frame: object) -> None:
 
 
 if __name__ == "__main__" or sys.argv[0].endswith("rotor-explorer"):
-    for _signal in _SIGNALS:  # While modules are still read, Ctrl-C and a service's stop find nothing to tidy up.
+    # While modules are still read, Ctrl-C and a service's stop find nothing to tidy up.
+    for _signal in _SIGNALS:
         signal.signal(_signal, _leave)
 
 import argparse
@@ -43,13 +44,16 @@ def main(arguments: Sequence[str] | None = None) -> int:
     def run() -> int:
         parser = _parser()
         if given and not given[0].startswith("-"):
-            remedy = did_you_mean(given[0], _COMMANDS) or f": use {', '.join(_COMMANDS)}, or flags alone"
+            remedy = (
+                did_you_mean(given[0], _COMMANDS) or f": use {', '.join(_COMMANDS)}, or flags alone"
+            )
             parser.error(f"{shorten(given[0])} is not a command{remedy}")
         try:
             return _run(parser.parse_args(given))
         except KeyboardInterrupt:
             print(flush=True)
-            if compiling():  # LLVM aborts if the process exits normally while one of its threads runs.
+            # LLVM aborts if the process exits normally while one of its threads runs.
+            if compiling():
                 os._exit(0)
             return 0
 
@@ -104,11 +108,17 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
     words = "address to listen on (default: this machine only)"
     parser.add_argument("--host", default="127.0.0.1", metavar="ADDRESS", help=words)
-    parser.add_argument("--port", type=_port, default=8080, metavar="N", help="port to listen on (default 8080)")
+    parser.add_argument(
+        "--port", type=_port, default=8080, metavar="N", help="port to listen on (default 8080)"
+    )
     parser.add_argument("--design", metavar="FILE", help="design file to start from")
     parser.add_argument("--no-browser", action="store_true", help="do not open a browser")
-    words = "further host name by which the page is reached, as behind a reverse proxy; may be repeated"
-    parser.add_argument("--allow-host", metavar="NAME", type=_host_name, action="append", default=[], help=words)
+    words = (
+        "further host name by which the page is reached, as behind a reverse proxy; may be repeated"
+    )
+    parser.add_argument(
+        "--allow-host", metavar="NAME", type=_host_name, action="append", default=[], help=words
+    )
     words = f"largest number of active pages (default {SESSIONS}); others wait"
     parser.add_argument("--max-sessions", metavar="N", type=_sessions, default=SESSIONS, help=words)
     return parser

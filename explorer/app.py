@@ -81,7 +81,9 @@ class ClientConnection:
                     self.session.start()
                 except Exception as error:
                     _log.exception("a page could not be made")
-                    show_dialogue(self.client, web.fill("crashed.html", {"error": type(error).__name__}))
+                    show_dialogue(
+                        self.client, web.fill("crashed.html", {"error": type(error).__name__})
+                    )
                     return
                 self.session.shown.wait(FIRST_SOLUTION_S)
 
@@ -91,7 +93,9 @@ class ClientConnection:
         with self._lock:
             if self._gone:
                 return
-            self.client.gui.configure_theme(dark_mode=self._facts.dark, show_logo=False, show_share_button=False)
+            self.client.gui.configure_theme(
+                dark_mode=self._facts.dark, show_logo=False, show_share_button=False
+            )
             show_dialogue(self.client, web.fill("lobby.html", {"taken": taken}))
             call(self.client, "RX.awaitPlace")
 
@@ -128,7 +132,9 @@ class FirstAnswers:
         self._known: dict[tuple[str, Inputs], str] = {}
         self._asked: tuple[str, Inputs] | None = None
         """What is being solved: one at a time."""
-        self._worker = NewestWins(self._solve, lambda error: _log.error("a first answer failed", exc_info=error), pool)
+        self._worker = NewestWins(
+            self._solve, lambda error: _log.error("a first answer failed", exc_info=error), pool
+        )
 
     def __call__(self, query: str) -> str:
         """Power, design and flight in three lines; empty until it is solved, and where there is no answer."""
@@ -173,7 +179,9 @@ class PortBusy(RuntimeError):
 class App:
     """A running server and its connections."""
 
-    def __init__(self, host: str, port: int, start: Inputs | None = None, limits: ServerLimits | None = None) -> None:
+    def __init__(
+        self, host: str, port: int, start: Inputs | None = None, limits: ServerLimits | None = None
+    ) -> None:
         _check_free(host, port)
         sys.setswitchinterval(_THREAD_SWITCH_S)
         self._start = start or OPENING
@@ -189,7 +197,12 @@ class App:
         page = with_loading_screen(viser_compat.client_html(), web.frame())
         first = FirstAnswers(lambda: self._start)
         request_filter = RequestFilter(
-            hosts, self._limits.connections, page, self._limits.frame_ancestors, first, lambda: not self._full
+            hosts,
+            self._limits.connections,
+            page,
+            self._limits.frame_ancestors,
+            first,
+            lambda: not self._full,
         )
         self.server = viser_compat.quiet_server(host, port, "Rotor explorer", request_filter)
         viser_compat.remove_share_tunnel(self.server)
@@ -201,7 +214,9 @@ class App:
     @property
     def address(self) -> str:
         host = self.server.get_host()
-        shown = "127.0.0.1" if host in ("0.0.0.0", "::", "") else f"[{host}]" if ":" in host else host
+        shown = (
+            "127.0.0.1" if host in ("0.0.0.0", "::", "") else f"[{host}]" if ":" in host else host
+        )
         return f"http://{shown}:{self.server.get_port()}"
 
     def wait_until_warm(self) -> None:
@@ -213,7 +228,9 @@ class App:
     @property
     def sessions(self) -> tuple[Session, ...]:
         """Sessions at work, in the order in which their browsers connected."""
-        return tuple(one.session for one in tuple(self._connections.values()) if one.session is not None)
+        return tuple(
+            one.session for one in tuple(self._connections.values()) if one.session is not None
+        )
 
     def stop(self) -> None:
         connections, self._connections = list(self._connections.values()), {}
@@ -246,7 +263,8 @@ class App:
             connection.begin(self._session)
         else:
             connection.turn_away(self._limits.sessions)
-        if connection.client.client_id not in self._connections:  # The browser left before its turn came.
+        # The browser left before its turn came.
+        if connection.client.client_id not in self._connections:
             self._leave(connection)
 
     def _leave(self, connection: ClientConnection) -> None:

@@ -20,7 +20,11 @@ Scheme = Literal["sequential", "diverging", "margin"]
 
 # OKLab (Ottosson 2020): cube-rooted cone responses from L, a, b, and linear sRGB from cone responses.
 _CONES = np.array(
-    [[1.0, 0.3963377774, 0.2158037573], [1.0, -0.1055613458, -0.0638541728], [1.0, -0.0894841775, -1.2914855480]]
+    [
+        [1.0, 0.3963377774, 0.2158037573],
+        [1.0, -0.1055613458, -0.0638541728],
+        [1.0, -0.0894841775, -1.2914855480],
+    ]
 )
 _LINEAR = np.array(
     [
@@ -42,7 +46,13 @@ NOW = "#e03131"
 """The present point and the reference blade, in charts."""
 LIMIT = "#b5179e"
 """A limit, in charts."""
-PARTS = {"induced": "#3b82c4", "profile": "#e6a117", "parasite": "#8d949c", "climb": "#2f9e44", "tail": "#983a6e"}
+PARTS = {
+    "induced": "#3b82c4",
+    "profile": "#e6a117",
+    "parasite": "#8d949c",
+    "climb": "#2f9e44",
+    "tail": "#983a6e",
+}
 """Power parts, told apart by every eye (tested, as are the lines of charts and the maps)."""
 
 PINNED_OVERLAY: Rgb = (96, 58, 214)
@@ -76,7 +86,9 @@ def _srgb(lightness: float, chroma: float, hue_deg: float) -> Array:
         for _ in range(30):
             middle = 0.5 * (low + high)
             linear = _linear_rgb(lightness, middle, hue_deg)
-            low, high = (middle, high) if linear.min() >= 0.0 and linear.max() <= 1.0 else (low, middle)
+            low, high = (
+                (middle, high) if linear.min() >= 0.0 and linear.max() <= 1.0 else (low, middle)
+            )
         inside = _linear_rgb(lightness, low, hue_deg)
     inside = np.clip(inside, 0.0, 1.0)
     return np.where(inside <= 0.0031308, 12.92 * inside, 1.055 * inside ** (1.0 / 2.4) - 0.055)
@@ -197,7 +209,12 @@ DARK = SceneTheme(
     lights=_lights(1.9, 0.55, 1.3),
     sky=0.55,
     environment=0.20,
-    ink=DiskInk(stall=(255, 92, 150), reverse_flow=(58, 63, 74), drag_divergence=(245, 247, 250), opacity=0.80),
+    ink=DiskInk(
+        stall=(255, 92, 150),
+        reverse_flow=(58, 63, 74),
+        drag_divergence=(245, 247, 250),
+        opacity=0.80,
+    ),
 )
 
 

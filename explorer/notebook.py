@@ -76,7 +76,11 @@ def _port(address: str) -> str:
 
 def start_page(design: Design, port: int, browser: bool | None, hub: str | None) -> RunningPage:
     """Start the server on the design; see `explorer.show`."""
-    names = () if hub is None else (host_name(hub.removeprefix("https://").removeprefix("http://").partition("/")[0]),)
+    names = (
+        ()
+        if hub is None
+        else (host_name(hub.removeprefix("https://").removeprefix("http://").partition("/")[0]),)
+    )
     start = inputs_of(require_design(design))
     limits = ServerLimits(allow_hosts=names, frame_ancestors=_LOCAL)
     carried = design.rotor.blade.carried

@@ -36,7 +36,15 @@ from explorer.views.flight import BY_HAND, FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.line import LINE
 from explorer.views.notice import NOTICE, PROMPT
-from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, PinOrder, SetGrabbed, SetHand
+from explorer.views.page_state import (
+    Effect,
+    MoveSliders,
+    OpenPanels,
+    PageState,
+    PinOrder,
+    SetGrabbed,
+    SetHand,
+)
 from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
@@ -83,7 +91,10 @@ _NOT_STORED = (
     "This browser stores nothing for the page: a reload keeps the design in the address, and loses history, bookmarks "
     "and your own rotors.",
 )
-_NO_LINK = "Link not read", "The browser did not give the page its address: reload the page to open a link."
+_NO_LINK = (
+    "Link not read",
+    "The browser did not give the page its address: reload the page to open a link.",
+)
 
 
 class Page:
@@ -114,14 +125,21 @@ class Page:
         self.context = TabContext(client, self.latest, shared, callbacks)
         with banner:
             secret = facts.kept.get(PRESENT, "")
-            presentation = PresentationBanner(self.context, shared.presentations, address, secret, facts.page)
+            presentation = PresentationBanner(
+                self.context, shared.presentations, address, secret, facts.page
+            )
         rotor = start.aircraft.rotor_for(start.preset)
         camera = FittedCamera(client, rotor.radius)
-        self.scene = SceneController(client, camera, rotor, self.context.display.show_range, facts.dark)
+        self.scene = SceneController(
+            client, camera, rotor, self.context.display.show_range, facts.dark
+        )
         self._add_rail(address)
         self._add_drawers(address, facts, presentation)
         self._listen(opening, address)
-        for title, sentence in address.problems:  # Stays until closed: the page does not show what the link names.
+        for (
+            title,
+            sentence,
+        ) in address.problems:  # Stays until closed: the page does not show what the link names.
             if title == _NOT_USED:
                 self._tell(sentence, opening)
             else:
@@ -143,7 +161,9 @@ class Page:
             self.actuator = ActuatorPanel(context, address)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
 
-    def _add_drawers(self, address: Address, facts: PageFacts, presentation: PresentationBanner) -> None:
+    def _add_drawers(
+        self, address: Address, facts: PageFacts, presentation: PresentationBanner
+    ) -> None:
         """What stands on the left, and the panels."""
         context, start = self.context, self.latest.inputs
         layout, gui = context.layout, context.gui
@@ -156,7 +176,11 @@ class Page:
                 add_rotor_upload(context)
             with opened["History"]:
                 self.history = HistoryPanel(
-                    context, self.actuator.hand, self._carry, start, facts.kept.get(share.STEPS_KEPT)
+                    context,
+                    self.actuator.hand,
+                    self._carry,
+                    start,
+                    facts.kept.get(share.STEPS_KEPT),
                 )
         self._views = SceneViews(context, self.scene, probe, self.actuator)
         self._views.follow_browser(facts.scene)
@@ -178,7 +202,13 @@ class Page:
             self._pressed,
             self._perform,
         )
-        context.following += [probe.show, settings.show, self.history.show, lecture.show, presentation.show]
+        context.following += [
+            probe.show,
+            settings.show,
+            self.history.show,
+            lecture.show,
+            presentation.show,
+        ]
         with layout.drawers["lecture"]:
             presentation.begin(lecture, self._views, self.optimise.hand, self._hold)
 
@@ -197,10 +227,16 @@ class Page:
         bridge.on("aim", lambda _: camera.come_back())
         bridge.on("taken", lambda _: camera.let_go())
         bridge.on("covered", lambda cards: camera.leave_free(cards.above, cards.below))
-        bridge.on("hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True)
+        bridge.on(
+            "hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True
+        )
         if context.held:
             return
-        if (actuator := address.read(share.CARRIED, inputs_from_spec, None, "Link: actuator not used")) is not None:
+        if (
+            actuator := address.read(
+                share.CARRIED, inputs_from_spec, None, "Link: actuator not used"
+            )
+        ) is not None:
             self._carry(actuator)
         elif self.actuator.hand().on_stage:
             context.layout.show_mode("actuate")
@@ -211,9 +247,9 @@ class Page:
         with modal:
             gui = self.context.client.gui
             gui.add_html(tag("div.rx", brief(sentence)))
-            gui.add_button(f"Show the {opening.aircraft.name} instead", hint=hint("instead")).on_click(
-                lambda _: modal.close()
-            )
+            gui.add_button(
+                f"Show the {opening.aircraft.name} instead", hint=hint("instead")
+            ).on_click(lambda _: modal.close())
 
     def start(self) -> None:
         """The session begins: widgets as they will be, also where the first solution takes long."""
@@ -233,11 +269,15 @@ class Page:
         with context.whole:
             hand = self.actuator.hand()
             inputs, view = self.history.read(tracker.pause), context.display.view
-        return replace(self.latest, inputs=inputs, view=view, hand=hand, sliders=None, preview=None, problem="")
+        return replace(
+            self.latest, inputs=inputs, view=view, hand=hand, sliders=None, preview=None, problem=""
+        )
 
     def counted_from(self, now: PageState) -> Design | None:
         """The blade that changes count from where the design carries an actuator; None: as usual."""
-        return counted_from(replace(now, ui=OpenPanels(self.context.layout.mode), answers=self.follower.answers()))
+        return counted_from(
+            replace(now, ui=OpenPanels(self.context.layout.mode), answers=self.follower.answers())
+        )
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
@@ -250,15 +290,20 @@ class Page:
         self.context.display.allow_difference(self.context.pinboard.pinned is not None)
         return outcome.inputs is not None
 
-    def draw(self, now: PageState, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
+    def draw(
+        self, now: PageState, solution: Solution, pinned: Solution | None, only_azimuth: bool
+    ) -> None:
         """Draw a converged solution and send it. Nothing else belongs here: it is the delay that the user feels.
 
         `pinned`: A, where the scene shows it. `only_azimuth`: only the reference blade's azimuth can have changed.
         """
-        overlay = overlay_of(None if now.preview is None else now.sliders, self.context.pinboard.pinned)
+        overlay = overlay_of(
+            None if now.preview is None else now.sliders, self.context.pinboard.pinned
+        )
         self.scene.camera.resize(solution.design.rotor.radius)
         self._views.before = self._curve.before
-        if self._views.before is None:  # Otherwise the blade from the tip and the plan of the disk hide the scene.
+        # Otherwise the blade from the tip and the plan of the disk hide the scene.
+        if self._views.before is None:
             self.scene.draw(solution, now.view, overlay, pinned)
         if not only_azimuth:
             self._views.show_plan(solution, now.view, at_rest=False)
@@ -294,12 +339,23 @@ class Page:
     def _pressed(self) -> PageState:
         """All that is known, with what the widgets mean at this moment; where they mean no design, with the last."""
         now = self.now()
-        sliders = now.state.inputs.design() if now.sliders is None and now.state is not None else now.sliders
-        return replace(now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand())
+        sliders = (
+            now.state.inputs.design()
+            if now.sliders is None and now.state is not None
+            else now.sliders
+        )
+        return replace(
+            now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand()
+        )
 
     def show(self, now: PageState, urgency: Urgency) -> None:
         """Have what is as urgent as this follow a converged state."""
-        last, self.latest, context, follow = self.latest.state, now, self.context, self.follower.follow
+        last, self.latest, context, follow = (
+            self.latest.state,
+            now,
+            self.context,
+            self.follower.follow,
+        )
         state = now.state
         if state is None:
             return
@@ -308,14 +364,17 @@ class Page:
                 follow(lambda panel: panel.turns)
                 self._views.probe.show(state)
             case "address":
-                context.analyses.forget_others(state.solution, state.reference, *self.optimise.hand.solutions)
+                context.analyses.forget_others(
+                    state.solution, state.reference, *self.optimise.hand.solutions
+                )
                 self.follower.memory = self.follower.memory.then(state, last)
                 self.file.follow(state)
             case "number":
                 self._learn()
                 follow(_NUMBER.__contains__)
             case "results":
-                with context.client.atomic():  # Each message by itself would wake the thread that sends.
+                # Each message by itself would wake the thread that sends.
+                with context.client.atomic():
                     self.optimise.hand.show(state)
                     self._refresh()
                     self._curve.show(state)
@@ -362,13 +421,18 @@ class Page:
         self.follower.follow()
         for show in self.context.following:
             show(None)
-        self.scene.fade(good, now.view, self.context.pinboard.answer if now.view.difference else None)
+        self.scene.fade(
+            good, now.view, self.context.pinboard.answer if now.view.difference else None
+        )
 
     def _nearest_trim(self) -> None:
         """From inputs without a trim to the nearest towards the last that had one; one step of undo takes it back."""
         state = self.context.state()
         if state is not None and not self.context.held:
-            wanted, carried = self.context.controls.inputs(), state.solution.design.rotor.blade.carried
+            wanted, carried = (
+                self.context.controls.inputs(),
+                state.solution.design.rotor.blade.carried,
+            )
             kilograms = carried.aircraft_kg if carried else 0.0
 
             def trims(inputs: Inputs) -> bool:
@@ -377,7 +441,9 @@ class Page:
                 except ValueError:
                     return False
 
-            self.context.set_inputs(nearest_trim(state.inputs, wanted, trims, self.latest.problem, kilograms))
+            self.context.set_inputs(
+                nearest_trim(state.inputs, wanted, trims, self.latest.problem, kilograms)
+            )
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
@@ -440,12 +506,18 @@ class Page:
         if not self.context.held and mode == "explore":
             self.context.controls.default(label, opening)
         elif not self.context.held:
-            (self.optimise.form if mode == "optimise" else self.actuator.controls.form).default(label)
+            (self.optimise.form if mode == "optimise" else self.actuator.controls.form).default(
+                label
+            )
 
     def _slide(self, to: SlidePress) -> None:
         """A number of the line, or the dot of power over µ, was moved: its slider moves as if by a hand."""
         if not self.context.held:
-            forms = (self.context.controls.form, self.context.controls.stand.form, self.actuator.controls.form)
+            forms = (
+                self.context.controls.form,
+                self.context.controls.stand.form,
+                self.actuator.controls.form,
+            )
             for form in forms:
                 if to.name in form:
                     form.move(to.name, to.place)

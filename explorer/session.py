@@ -46,7 +46,9 @@ _DRAGGED = 0.5
 class Session:
     """Exists from connect to disconnect. After construction everything happens in updates, one at a time."""
 
-    def __init__(self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, shared: SharedServices) -> None:
+    def __init__(
+        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, shared: SharedServices
+    ) -> None:
         """`start`: used where the page's address holds no design."""
         self._latest: Solution | None = None
         self._good: Solution | None = None
@@ -69,7 +71,9 @@ class Session:
         self._baseline = solver.BaselineCache(by=self.page.context.analyses.solve)
 
     def start(self) -> None:
-        self.page.context.bridge.on("idle", lambda asked: self._waits.submit(self._answer_when_idle, asked))
+        self.page.context.bridge.on(
+            "idle", lambda asked: self._waits.submit(self._answer_when_idle, asked)
+        )
         self.page.context.bridge.on("seen", self._see, at_once=True)
         self.page.start()
         self._wake()
@@ -103,10 +107,13 @@ class Session:
         shown = view.difference or view.wipe
         pinned = pinboard.solve(solution.design, self._overtaken(), moving) if shown else None
         page.draw(now, solution, pinned, only_azimuth=not everything)
-        if self._overtaken() and not UPDATES.waiting:  # What stands beside the frame would not be seen.
+        # What stands beside the frame would not be seen.
+        if self._overtaken() and not UPDATES.waiting:
             return iter(())
         as_built = page.counted_from(now) or baseline_of(solution.design)
-        baseline = solution if as_built == solution.design else self._baseline.solve(as_built, moving)
+        baseline = (
+            solution if as_built == solution.design else self._baseline.solve(as_built, moving)
+        )
         pinned = pinboard.solve(solution.design, self._overtaken(), moving)
         state = SessionState(now.inputs, view, solution, baseline, pinned, pinboard.pinned)
         now = replace(now, state=state)
@@ -146,7 +153,9 @@ class Session:
             self._latest = None
         elif self._latest is None or self._latest.design != design or (self._rough and not moving):
             for options in solver.tries(moving):
-                answer = self.page.context.analyses.solve(design, self._good, replace(options, stop=self._overtaken))
+                answer = self.page.context.analyses.solve(
+                    design, self._good, replace(options, stop=self._overtaken)
+                )
                 if not answer.converged and self._overtaken():
                     return None  # Perhaps stopped on its way; the next update solves what is on the sliders now.
                 self._latest, self._rough = answer, options is FEW_DIGITS
@@ -182,7 +191,11 @@ class Session:
             if set_shown(state.solution) is not None:
                 return True
             known = partial(show_with_curve, "power")
-            return (yield from _giving_way(self._curves.sweep(design, reference, self._overtaken, known)))
+            return (
+                yield from _giving_way(
+                    self._curves.sweep(design, reference, self._overtaken, known)
+                )
+            )
 
         show_with_curve("results")
         yield 0.0
@@ -210,7 +223,11 @@ class Session:
     def _show_failure(self, now: PageState) -> None:
         """The last converged picture stays, grey, with the sentence."""
         last = now.state
-        curve = None if last is None else self._curves.known(last.solution.design, last.reference.design)
+        curve = (
+            None
+            if last is None
+            else self._curves.known(last.solution.design, last.reference.design)
+        )
         self.page.show_failure(replace(now, curve=curve), self._good)
         self.shown.set()
 
@@ -221,7 +238,9 @@ class Session:
     def _answer_when_idle(self, asked: IdlePress) -> None:
         """Give the page its number back once all that it sent before is answered (`RX.idle` of frame.js)."""
         wait_for_callbacks(self._client)
-        self._worker.until_answered(asked.wholly, lambda: any(is_waiting() for is_waiting in self.page.context.waiting))
+        self._worker.until_answered(
+            asked.wholly, lambda: any(is_waiting() for is_waiting in self.page.context.waiting)
+        )
         self.page.context.bridge.set(idle=asked.serial)
 
     def _see(self, seen: bool) -> None:
@@ -239,7 +258,10 @@ class Session:
         self.shown.set()
         self._latest = self._good = None
         self._all_changed = True
-        self._baseline, self._curves = replace(self._baseline, design=None, solution=None), PowerCurves()
+        self._baseline, self._curves = (
+            replace(self._baseline, design=None, solution=None),
+            PowerCurves(),
+        )
         _log.error("an update failed", exc_info=error)
         self.page.show_error(f"This update failed ({error}): move any slider to continue.")
 

@@ -22,7 +22,9 @@ def build_parser(command: str | None = None) -> argparse.ArgumentParser:
         epilog="For the flags and examples of a command: COMMAND --help",
     )
     parser.add_argument("--version", action="version", version=f"rotor-explorer {__version__}")
-    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser)
+    commands = parser.add_subparsers(
+        dest="command", required=True, metavar="COMMAND", parser_class=OneLineParser
+    )
     for name, (where, words, _) in COMMANDS.items():
         if command in (None, name):
             module, _, add = where.partition(".")
@@ -35,15 +37,21 @@ def build_parser(command: str | None = None) -> argparse.ArgumentParser:
         return 0
 
     words = "print a shell script that completes commands and flags with Tab"
-    hint = 'Use eval "$(rotor completion)"; in zsh first run autoload -U bashcompinit && bashcompinit.'
+    hint = (
+        'Use eval "$(rotor completion)"; in zsh first run autoload -U bashcompinit && bashcompinit.'
+    )
     examples = (("Print the script", ""),)
-    commands.add_parser(_COMPLETION, help=words, description=hint, examples=examples).set_defaults(run=complete)
+    commands.add_parser(_COMPLETION, help=words, description=hint, examples=examples).set_defaults(
+        run=complete
+    )
     return parser
 
 
 def completion(commands: Mapping[str, argparse.ArgumentParser], script: str) -> str:
     """A script with which bash, or zsh after bashcompinit, completes commands and flags."""
-    flags = {name: " ".join(sorted(command._option_string_actions)) for name, command in commands.items()}  # pyright: ignore[reportPrivateUsage]
+    flags = {
+        name: " ".join(sorted(command._option_string_actions)) for name, command in commands.items()
+    }  # pyright: ignore[reportPrivateUsage]
     cases = "\n".join(f'    {name}) words="{words}" ;;' for name, words in flags.items())
     return f'''_{script}() {{
   local words="{" ".join(commands)}"
@@ -61,7 +69,9 @@ def main(argv: list[str] | None = None) -> int:
     def run() -> int:
         given = sys.argv[1:] if argv is None else argv
         first = given[0] if given else ""
-        parser = build_parser(first if first in COMMANDS or first in ("", "-h", "--help", "--version") else None)
+        parser = build_parser(
+            first if first in COMMANDS or first in ("", "-h", "--help", "--version") else None
+        )
         if not given:
             parser.print_help()
             return 0

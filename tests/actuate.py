@@ -18,10 +18,14 @@ from rotor.design import Harmonic
 from rotor.trim.solve import solve
 
 
-def actuate(inputs: Inputs, answers: Mapping[Hashable, Any] | None = None, **hand: Any) -> PageState:
+def actuate(
+    inputs: Inputs, answers: Mapping[Hashable, Any] | None = None, **hand: Any
+) -> PageState:
     """The page in Actuate with this design, the blade lifted out; `hand`: fields of `HandSettings`."""
     own = HandSettings(**hand, on_board=True)
-    now = PageState(inputs, None, None, ui=OpenPanels("actuate", lifted=True), hand=own, answers=answers or {})
+    now = PageState(
+        inputs, None, None, ui=OpenPanels("actuate", lifted=True), hand=own, answers=answers or {}
+    )
     return solved(now)
 
 
@@ -43,7 +47,9 @@ def asked(panel: Panel, now: PageState) -> dict[str, Call]:
 def told(panel: Panel, now: PageState, **answers: Any) -> PageState:
     """With answers to what it asks, by the names of the functions."""
     calls = asked(panel, now)
-    return replace(now, answers={**now.answers, **{calls[name]: answer for name, answer in answers.items()}})
+    return replace(
+        now, answers={**now.answers, **{calls[name]: answer for name, answer in answers.items()}}
+    )
 
 
 def worked(panel: Panel, now: PageState) -> PageState:
@@ -71,14 +77,18 @@ def vector(waves: tuple[Harmonic, ...]) -> np.ndarray:
     """Cosine and sine part of each harmonic of the dial [°]."""
     x = np.zeros((4, 2))
     for one in waves:
-        x[one.per_rev - 2] = math.degrees(one.amplitude) * np.array([math.cos(one.phase), math.sin(one.phase)])
+        x[one.per_rev - 2] = math.degrees(one.amplitude) * np.array(
+            [math.cos(one.phase), math.sin(one.phase)]
+        )
     return x.ravel()
 
 
 def foreseen(answer: DialNumbers, waves: tuple[Harmonic, ...]) -> tuple[float, float]:
     """Changes of power and index [%], by the formulas of `dial.js`, written again."""
     x = vector(waves)
-    base, slopes, second, gains = (np.array(one) for one in (answer.base, answer.slopes, answer.second, answer.gains))
+    base, slopes, second, gains = (
+        np.array(one) for one in (answer.base, answer.slopes, answer.second, answer.gains)
+    )
     values = base + slopes @ x + 0.5 * np.einsum("kij,i,j->k", second, x, x)
     sizes = (gains * np.hypot(values[0:10:2], values[1:10:2])) ** 2
     index = math.sqrt(sizes[:3].sum()) + math.sqrt(sizes[3:].sum())

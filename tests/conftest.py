@@ -87,7 +87,9 @@ def browser(chromium_path: str) -> "Iterator[Browser]":
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=chromium_path, args=list(LAUNCH_ARGUMENTS))
+        browser = playwright.chromium.launch(
+            executable_path=chromium_path, args=list(LAUNCH_ARGUMENTS)
+        )
         yield browser
         browser.close()
 
@@ -105,7 +107,11 @@ def pytest_runtest_makereport(item: pytest.Item, call: "pytest.CallInfo[None]") 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
     """Say loudly that the page was not tested."""
-    skipped = [report for report in terminalreporter.getreports("skipped") if "browser" in report.keywords]
+    skipped = [
+        report for report in terminalreporter.getreports("skipped") if "browser" in report.keywords
+    ]
     if skipped:
         terminalreporter.section("THE PAGE WAS NOT TESTED", sep="!", red=True, bold=True)
-        terminalreporter.line(f"{len(skipped)} browser test(s) were skipped: {skipped[0].longrepr[2]}")
+        terminalreporter.line(
+            f"{len(skipped)} browser test(s) were skipped: {skipped[0].longrepr[2]}"
+        )

@@ -41,7 +41,9 @@ class Bridge:
 class PanelPage:
     """Panels without a page: what they show, what a press does, and the page's own work."""
 
-    def __init__(self, *panels: Panel, inputs: Inputs = OPENING, texts: tuple[str, ...] = ()) -> None:
+    def __init__(
+        self, *panels: Panel, inputs: Inputs = OPENING, texts: tuple[str, ...] = ()
+    ) -> None:
         """`texts`: names of what is shown outside the frame."""
         self.now = PageState(inputs, None, None)
         self.bridge, self.done, self.words = Bridge(), list[Effect](), list[Any]()
@@ -65,7 +67,11 @@ class PanelPage:
         )
 
     def _now(self) -> PageState:
-        return replace(self.now, memory=self.updater.memory, answers={**self.now.answers, **self.updater.answers()})
+        return replace(
+            self.now,
+            memory=self.updater.memory,
+            answers={**self.now.answers, **self.updater.answers()},
+        )
 
     def follow(self, now: PageState) -> None:
         self.now = now
@@ -73,7 +79,9 @@ class PanelPage:
 
     def show(self, state: SessionState) -> None:
         """Follow a converged state."""
-        self.follow(replace(self.now, state=state, inputs=state.inputs, sliders=state.inputs.design()))
+        self.follow(
+            replace(self.now, state=state, inputs=state.inputs, sliders=state.inputs.design())
+        )
 
     def rest(self) -> None:
         for soon in (True, False):

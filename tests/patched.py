@@ -14,7 +14,9 @@ Patch = Callable[[str, object], None]
 
 def empty_caches() -> None:
     """All of `rotor` that have been filled."""
-    modules = [module for name, module in list(sys.modules.items()) if name.partition(".")[0] == "rotor"]
+    modules = [
+        module for name, module in list(sys.modules.items()) if name.partition(".")[0] == "rotor"
+    ]
     for value in [value for module in modules for value in list(vars(module).values())]:
         if isinstance(value, CachedFunction):
             value.known.clear()

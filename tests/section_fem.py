@@ -13,7 +13,16 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from skfem import Basis, BilinearForm, ElementQuad2, ElementVector, LinearForm, MeshQuad, condense, solve
+from skfem import (
+    Basis,
+    BilinearForm,
+    ElementQuad2,
+    ElementVector,
+    LinearForm,
+    MeshQuad,
+    condense,
+    solve,
+)
 
 from rotor.dynamics.thin_wall import Layer
 
@@ -46,7 +55,9 @@ def closed_wall(line: np.ndarray, layers: list[list[Layer]]) -> tuple[MeshQuad, 
     """
     n = len(line)
     ahead, behind = np.roll(line, -1, axis=0) - line, line - np.roll(line, 1, axis=0)
-    normals = [np.column_stack([d[:, 1], -d[:, 0]]) / np.hypot(*d.T)[:, None] for d in (behind, ahead)]
+    normals = [
+        np.column_stack([d[:, 1], -d[:, 0]]) / np.hypot(*d.T)[:, None] for d in (behind, ahead)
+    ]
     half = normals[0] + normals[1]
     mitre = 2.0 * half / (half**2).sum(axis=1)[:, None]  # Outward: the line runs counter-clockwise.
     thicknesses = [layer.thickness for layer in layers[0]]
@@ -64,7 +75,12 @@ def closed_wall(line: np.ndarray, layers: list[list[Layer]]) -> tuple[MeshQuad, 
 
 
 def with_web(
-    mesh: MeshQuad, owners: list, tangents: np.ndarray, ends: tuple[int, int], layer: Layer, rows: int = 12
+    mesh: MeshQuad,
+    owners: list,
+    tangents: np.ndarray,
+    ends: tuple[int, int],
+    layer: Layer,
+    rows: int = 12,
 ) -> tuple[MeshQuad, list, np.ndarray]:
     """A web across the inside of a closed wall, from its stretch `ends[0]` on top to `ends[1]` below."""
     top, bottom = ends
@@ -77,12 +93,18 @@ def with_web(
     right = [top, *(n + 2 * k for k in range(rows - 1)), bottom + 1]
     quads = np.array([(left[k + 1], right[k + 1], right[k], left[k]) for k in range(rows)])
     whole = MeshQuad(np.column_stack([mesh.p, points.T]), np.column_stack([mesh.t, quads.T]))
-    return whole, [*owners, *[layer] * rows], np.concatenate([tangents, np.tile([0.0, 1.0], (rows, 1))])
+    return (
+        whole,
+        [*owners, *[layer] * rows],
+        np.concatenate([tangents, np.tile([0.0, 1.0], (rows, 1))]),
+    )
 
 
 def analyse(mesh: MeshQuad, owners: list[Layer], tangents: np.ndarray) -> Stiffness:
     """Solve the section."""
-    stiffness, free = zip(*(_in_space(*pair) for pair in zip(owners, tangents, strict=True)), strict=True)
+    stiffness, free = zip(
+        *(_in_space(*pair) for pair in zip(owners, tangents, strict=True)), strict=True
+    )
     c = np.moveaxis(np.array(stiffness), 0, -1)[..., None]  # (6, 6, elements, 1)
     e0 = np.moveaxis(np.array(free), 0, -1)[..., None]
     basis = Basis(mesh, ElementVector(ElementQuad2(), 3), intorder=4)
@@ -109,7 +131,10 @@ def analyse(mesh: MeshQuad, owners: list[Layer], tangents: np.ndarray) -> Stiffn
         )
 
     k = BilinearForm(lambda u, v, w: product(strain(v), strain(u))).assemble(basis)
-    loads = [LinearForm(lambda v, w, m=m: product(strain(v), m)).assemble(basis) for m in [*modes, list(e0)]]
+    loads = [
+        LinearForm(lambda v, w, m=m: product(strain(v), m)).assemble(basis)
+        for m in [*modes, list(e0)]
+    ]
     corner = int(np.argmin(mesh.p[0]))
     far = int(np.argmax(mesh.p[0]))
     dofs: Any = basis.nodal_dofs
@@ -142,7 +167,9 @@ def _in_space(layer: Layer, tangent: np.ndarray) -> tuple[np.ndarray, np.ndarray
     own = np.linalg.inv(compliance)
     along, across = np.array([1.0, 0.0, 0.0]), np.array([0.0, *tangent])
     cos, sin = np.cos(layer.angle), np.sin(layer.angle)
-    axes = np.array([cos * along + sin * across, -sin * along + cos * across, np.cross(along, across)])
+    axes = np.array(
+        [cos * along + sin * across, -sin * along + cos * across, np.cross(along, across)]
+    )
     turn = np.zeros((6, 6))  # Engineering strains, section axes to layer axes.
     for i, (a, b) in enumerate(PAIRS):
         for j, (p, q) in enumerate(PAIRS):

@@ -16,4 +16,6 @@ def still_true(made: TrustRow) -> None:
     if shipped.bound:
         assert (made.error < shipped.allowed) == (shipped.verdict != "missed"), key
     else:
-        assert abs(made.error - shipped.error) <= shipped.allowed, f"{key}: {shipped.error} → {made.error}"
+        assert abs(made.error - shipped.error) <= shipped.allowed, (
+            f"{key}: {shipped.error} → {made.error}"
+        )

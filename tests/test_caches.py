@@ -43,11 +43,22 @@ def maker(made: list[tuple[str, int]], name: str) -> Callable[[int], Array]:
     return make
 
 
-def test_caches_share_their_bytes_and_the_least_recently_used_goes_first(room: Callable[[int], None]):
+def test_caches_share_their_bytes_and_the_least_recently_used_goes_first(
+    room: Callable[[int], None],
+):
     made = list[tuple[str, int]]()
     a, b = maker(made, "a"), maker(made, "b")
     room(3)
-    for make, number in ((a, 1), (b, 1), (a, 2), (a, 1), (b, 2), (a, 1), (b, 1)):  # Out go 1 of b, then 2 of a.
+    # Out go 1 of b, then 2 of a.
+    for make, number in (
+        (a, 1),
+        (b, 1),
+        (a, 2),
+        (a, 1),
+        (b, 2),
+        (a, 1),
+        (b, 1),
+    ):
         assert make(number)[0] == number
         assert bytes_kept() <= 3.5 * MEGABYTE
     assert made == [("a", 1), ("b", 1), ("a", 2), ("b", 2), ("b", 1)]

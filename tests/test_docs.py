@@ -49,7 +49,9 @@ def named_in(annotation: object, where: types.ModuleType) -> set[type]:
     else:
         parts = typing.get_args(annotation)
     if inspect.isclass(annotation) and not parts:
-        return {annotation} if annotation.__module__.split(".")[0] in ("rotor", "explorer") else set()
+        return (
+            {annotation} if annotation.__module__.split(".")[0] in ("rotor", "explorer") else set()
+        )
     return set().union(*(named_in(part, where) for part in parts))
 
 
@@ -61,14 +63,24 @@ def types_of(one: object) -> set[type]:
         part = part.fget if isinstance(part, property) else getattr(part, "__func__", part)
         where = inspect.getmodule(part)
         if where is not None and callable(part):
-            given = {name: value for name, value in inspect.get_annotations(part).items() if not name.startswith("_")}
+            given = {
+                name: value
+                for name, value in inspect.get_annotations(part).items()
+                if not name.startswith("_")
+            }
             found |= set().union(*(named_in(value, where) for value in given.values()))
     return found
 
 
 def test_each_public_type_has_an_entry():
-    entries = {name.rpartition(".")[2] for name in re.findall(r"^   ~([\w.]+)$", API, flags=re.MULTILINE)}
-    public = [getattr(module, name) for module in (rotor, rotor.actuator, explorer) for name in module.__all__]
+    entries = {
+        name.rpartition(".")[2] for name in re.findall(r"^   ~([\w.]+)$", API, flags=re.MULTILINE)
+    }
+    public = [
+        getattr(module, name)
+        for module in (rotor, rotor.actuator, explorer)
+        for name in module.__all__
+    ]
     described = [one for one in public if inspect.isclass(one) or inspect.isfunction(one)]
     needed = {*described}.union(*map(types_of, described))
     missing = {f"{one.__module__}.{one.__name__}" for one in needed if one.__name__ not in entries}
@@ -78,13 +90,21 @@ def test_each_public_type_has_an_entry():
 def names_of_the_page() -> set[str]:
     """What widgets, modes and buttons can be called: whole strings of the page's Python, and texts of its elements."""
     rows = (BY_INPUT | ROWS).values()
-    found = {row.title for row in (*rows, *LAWS.values())} | {row.slider.label for row in rows if row.slider}
+    found = {row.title for row in (*rows, *LAWS.values())} | {
+        row.slider.label for row in rows if row.slider
+    }
     page = ROOT / "explorer"
     for path in (
         page / "page.py",
-        *(p for folder in ("widgets", "model", "charts", "views") for p in (page / folder).rglob("*.py")),
+        *(
+            p
+            for folder in ("widgets", "model", "charts", "views")
+            for p in (page / folder).rglob("*.py")
+        ),
     ):
-        constants = (node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant))
+        constants = (
+            node.value for node in ast.walk(ast.parse(text(path))) if isinstance(node, ast.Constant)
+        )
         found |= {value for value in constants if isinstance(value, str)}
     for path in (*(page / "web").glob("*.html"), *(page / "web").glob("*.js")):
         found |= {name.strip() for name in re.findall(r">([^<>]+)<", text(path))}
@@ -100,21 +120,35 @@ def test_tutorials_name_sliders_and_buttons_that_exist(path: Path):
     assert len(named) >= (8 if path.stem == "drag" else 0)
 
 
-PLAIN_WORDS = {"mass", "altitude", "density", "thrust", "rotor speed", "middle", "at low speed", "flight or test"}
+PLAIN_WORDS = {
+    "mass",
+    "altitude",
+    "density",
+    "thrust",
+    "rotor speed",
+    "middle",
+    "at low speed",
+    "flight or test",
+}
 RATES = {"rate", "inboard", "outboard", "curvature"}
 
 
 def test_the_glossary_has_the_terms_of_sliders_and_switches():
     labels = {row.slider.label if row.slider else row.title for row in (BY_INPUT | ROWS).values()}
     terms = {
-        re.sub(r" \[.*|^Δ | [θ\d].*", "", label).lower().replace("adv. ratio", "advance ratio") for label in labels
+        re.sub(r" \[.*|^Δ | [θ\d].*", "", label).lower().replace("adv. ratio", "advance ratio")
+        for label in labels
     }
     terms -= PLAIN_WORDS | RATES | {"inflow in hover", "tip and root loss"}
     words = text(DOCS / "glossary.md").lower().replace("c_t/σ", "ct/σ")
     assert not {term for term in terms if term not in words}
 
 
-SITE = {path for path in DOCS.rglob("*.md") if path.relative_to(DOCS).parts[0] not in ("_made", "developers")}
+SITE = {
+    path
+    for path in DOCS.rglob("*.md")
+    if path.relative_to(DOCS).parts[0] not in ("_made", "developers")
+}
 DEVELOPERS = {*(DOCS / "developers").rglob("*.md")}
 TOP = tuple(ROOT / name for name in ("README.md", "CONTRIBUTING.md", "SECURITY.md"))
 
@@ -127,10 +161,14 @@ def linked(page: Path) -> set[Path]:
     return {(page.parent / link).resolve() for link in links if "://" not in link}
 
 
-@pytest.mark.parametrize("path", sorted({*SITE, *DEVELOPERS, *TOP}), ids=lambda path: str(path.relative_to(ROOT)))
+@pytest.mark.parametrize(
+    "path", sorted({*SITE, *DEVELOPERS, *TOP}), ids=lambda path: str(path.relative_to(ROOT))
+)
 def test_no_link_is_dead(path: Path):
     made = DOCS / "_made"  # Of the notebooks, when the site is built.
-    assert not [str(link) for link in linked(path) if not link.exists() and not link.is_relative_to(made)]
+    assert not [
+        str(link) for link in linked(path) if not link.exists() and not link.is_relative_to(made)
+    ]
 
 
 def test_what_the_page_on_attacks_names_exists():
@@ -151,8 +189,14 @@ STATED_IN_CODE = rf"{_SIZE}|\b(?:takes?|took)\b[^.\n]{{0,30}}\b(?:seconds?|minut
 
 
 def test_speed_memory_and_load_are_stated_on_the_page_that_is_measured_alone():
-    assert text(measured.PAGE) == measured.page(json.loads(text(measured.DATA))), "make bench ARGS=--page writes it"
-    pages = {*SITE, *DEVELOPERS, *TOP} - {measured.PAGE, *(DOCS / "validation").glob("*"), DOCS / "changelog.md"}
+    assert text(measured.PAGE) == measured.page(json.loads(text(measured.DATA))), (
+        "make bench ARGS=--page writes it"
+    )
+    pages = {*SITE, *DEVELOPERS, *TOP} - {
+        measured.PAGE,
+        *(DOCS / "validation").glob("*"),
+        DOCS / "changelog.md",
+    }
     pages |= {
         *(DOCS / "notebooks").glob("*.py"),
         *(ROOT / "deploy").glob("*"),
@@ -174,7 +218,9 @@ OTHERS = {"--find-links", "--no-index", "--tls-ca-file", "--tls-cert", "--tls-ke
 
 def parsers() -> list[OneLineParser]:
     """Of all commands."""
-    (commands,) = (one for one in build_parser()._actions if isinstance(one, argparse._SubParsersAction))
+    (commands,) = (
+        one for one in build_parser()._actions if isinstance(one, argparse._SubParsersAction)
+    )
     page = (explorer.__main__._parser(), report._parser(), blade._parser())
     return typing.cast(list[OneLineParser], [*commands.choices.values(), *page])
 
@@ -191,7 +237,9 @@ ONLY_READ = ("two_segment.toml", "show results", "--port", "--design mine.json",
 """Of examples that run for a minute or more, serve the page or need files, only the flags are read."""
 SLOW = ("--doubt", "a.json", "MFC_P1")
 SHOWN = [
-    pytest.param(f"{parser.prog} {words}", marks=[pytest.mark.slow] * any(part in words for part in SLOW))
+    pytest.param(
+        f"{parser.prog} {words}", marks=[pytest.mark.slow] * any(part in words for part in SLOW)
+    )
     for parser in parsers()
     for _, words in parser.examples
     if parser.prog.split()[-1] != "warm" and not any(part in words for part in ONLY_READ)
@@ -212,9 +260,18 @@ def test_examples_of_the_help_run(example: str, tmp_path: Path, monkeypatch: pyt
 
 def test_flags_that_pages_name_exist():
     """In commands of ours, and in sentences where code begins with a flag."""
-    known, unknown = {flag for parser in parsers() for flag in parser._option_string_actions} | OTHERS | {"--help"}, {}
+    known, unknown = (
+        {flag for parser in parsers() for flag in parser._option_string_actions}
+        | OTHERS
+        | {"--help"},
+        {},
+    )
     for path in sorted({*SITE, TOP[0]}):
-        code = [line for line in text(path).splitlines() if re.search(r"python -m (rotor|explorer) ", line)]
+        code = [
+            line
+            for line in text(path).splitlines()
+            if re.search(r"python -m (rotor|explorer) ", line)
+        ]
         code += re.findall(r"`--[^`]*`", text(path))
         unknown[path.name] = {*re.findall(r"(?<=[ `(])--[a-z][\w-]*", "\n".join(code))} - known
     assert not {name: given for name, given in unknown.items() if given}
@@ -236,7 +293,9 @@ def test_numbers_of_the_student_theory_are_results():
                 expression = part.partition("  # ")[0]
                 target = re.match(r"\w+(?= = )", expression)
                 value = float(eval(target[0] if target else expression, names))
-                assert value == pytest.approx(float(stated[1]), abs=0.6 * 10.0 ** -len(stated[2] or "")), part
+                assert value == pytest.approx(
+                    float(stated[1]), abs=0.6 * 10.0 ** -len(stated[2] or "")
+                ), part
                 checked += 1
     assert checked >= 30
 

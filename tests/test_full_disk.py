@@ -25,7 +25,16 @@ sys.exit(main(arguments))
 STUDY = 'title = "small"\n[axes]\nmu = [0.1, 0.2]\n[fixed]\ntwist = "linear:-8"\n'
 COMMANDS = {
     "sweep": ("rotor", "sweep", "--mu", "0.1:0.2:0.1", "--csv", "OUT/out.file"),
-    "schedule": ("rotor", "schedule", "--concept", "linear", "--mu", "0.1,0.2", "--csv", "OUT/out.file"),
+    "schedule": (
+        "rotor",
+        "schedule",
+        "--concept",
+        "linear",
+        "--mu",
+        "0.1,0.2",
+        "--csv",
+        "OUT/out.file",
+    ),
     "report": ("explorer", "report", "IN/a.json", "--out", "OUT/out.html"),
     "blade": ("explorer", "blade", "--out", "OUT/blade"),
     "study": ("rotor", "study", "IN/small.toml", "--workers", "1", "--out", "OUT/study"),
@@ -40,7 +49,10 @@ def limited(name: str, most: str, folder: Path) -> subprocess.CompletedProcess[s
     (folder / "in").mkdir(exist_ok=True)
     rotor.make_design(twist="linear:-8").save(folder / "in" / "a.json")
     (folder / "in" / "small.toml").write_text(STUDY, encoding="utf-8")
-    given = [word.replace("OUT", str(folder / "out")).replace("IN", str(folder / "in")) for word in arguments]
+    given = [
+        word.replace("OUT", str(folder / "out")).replace("IN", str(folder / "in"))
+        for word in arguments
+    ]
     return subprocess.run(
         [sys.executable, "-c", LIMITED, package, most, *given],
         cwd=ROOT, env={**os.environ, "PYTHONPATH": str(ROOT)}, capture_output=True, text=True, timeout=600,
@@ -50,7 +62,9 @@ def limited(name: str, most: str, folder: Path) -> subprocess.CompletedProcess[s
 @pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="this system has no limit on files")
 @pytest.mark.parametrize("name", COMMANDS)
-def test_on_a_full_disk_a_command_ends_with_a_sentence_and_what_was_there_stays(name: str, tmp_path: Path):
+def test_on_a_full_disk_a_command_ends_with_a_sentence_and_what_was_there_stays(
+    name: str, tmp_path: Path
+):
     """A limit of 100 bytes a file stands for the disk: the write that exceeds it fails as one without room does."""
     (tmp_path / "out").mkdir()
     there = [tmp_path / "out" / file for file in ("out.file", "out.html", "out.json")]

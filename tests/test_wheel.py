@@ -26,7 +26,9 @@ def test_it_is_the_wheel_that_runs(installed: Path, tmp_path: Path):
 
 
 def test_the_data_files_are_all_there(installed: Path, tmp_path: Path):
-    code = "import rotor.support.assets; print(rotor.support.assets.asset_path('uh60a.toml').parent)"
+    code = (
+        "import rotor.support.assets; print(rotor.support.assets.asset_path('uh60a.toml').parent)"
+    )
     shipped = Path(release.run(installed, "-c", code, cwd=tmp_path).strip())
     assert "site-packages" in shipped.parts
 
@@ -34,7 +36,9 @@ def test_the_data_files_are_all_there(installed: Path, tmp_path: Path):
         return {str(path.relative_to(folder)) for path in folder.rglob("*") if path.is_file()}
 
     assert files(shipped) == files(ROOT / "assets")
-    page = {path for path in files(ROOT / "explorer") if path.endswith((".js", ".css", ".html", ".md"))}
+    page = {
+        path for path in files(ROOT / "explorer") if path.endswith((".js", ".css", ".html", ".md"))
+    }
     assert len(page) > 30
     assert page <= files(shipped.parent.parent / "explorer")
     assert (shipped.parent / "py.typed").exists()
@@ -45,18 +49,24 @@ def test_it_solves_from_an_empty_directory(installed: Path, tmp_path: Path):
     assert answer["status"] == "converged"
     assert answer["mu"] == pytest.approx(0.2)
     power = answer["power_w"]
-    assert power["main_rotor"] == pytest.approx(power["induced"] + power["profile"] + power["parasite"])
+    assert power["main_rotor"] == pytest.approx(
+        power["induced"] + power["profile"] + power["parasite"]
+    )
     assert 0.4e6 < power["total"] < 2.0e6
 
 
 def test_its_two_commands_are_installed(installed: Path, tmp_path: Path):
     commands = {name: installed.parent / name for name in ("rotor", "rotor-explorer")}
     assert "UH-60A" in release.run(commands["rotor"], "solve", "--hover", cwd=tmp_path)
-    assert release.run(commands["rotor-explorer"], "--version", cwd=tmp_path).startswith("rotor-explorer ")
+    assert release.run(commands["rotor-explorer"], "--version", cwd=tmp_path).startswith(
+        "rotor-explorer "
+    )
 
 
 @pytest.mark.nightly  # The documentation runs them on each push, in the checkout.
-@pytest.mark.parametrize("notebook", sorted((ROOT / "docs" / "notebooks").glob("*.py")), ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "notebook", sorted((ROOT / "docs" / "notebooks").glob("*.py")), ids=lambda path: path.stem
+)
 def test_it_runs_the_notebooks(notebook: Path, installed: Path, tmp_path: Path):
     """Figures included; the last cell starts the page, which ends with the script."""
     assert release.run(installed, str(notebook), cwd=tmp_path)

@@ -25,7 +25,11 @@ def either_side(name: str, design: Design, patch: Patch) -> Iterator[Design]:
         match name:
             case "drag_area_percent":
                 yield with_drag_area(share, design)
-            case "torsional_stiffness_percent" | "control_stiffness_percent" | "torsional_inertia_percent":
+            case (
+                "torsional_stiffness_percent"
+                | "control_stiffness_percent"
+                | "torsional_inertia_percent"
+            ):
                 yield with_structure(name.removesuffix("_percent"), share, design)
             case _:
                 patch_sections(name, sign * size, patch)
@@ -34,7 +38,9 @@ def either_side(name: str, design: Design, patch: Patch) -> Iterator[Design]:
 
 
 def with_drag_area(share: float, design: Design) -> Design:
-    return replace(design, fuselage=replace(design.fuselage, drag_area=share * design.fuselage.drag_area))
+    return replace(
+        design, fuselage=replace(design.fuselage, drag_area=share * design.fuselage.drag_area)
+    )
 
 
 def with_structure(field: str, share: float, design: Design) -> Design:
@@ -63,7 +69,8 @@ def patch_sections(name: str, amount: float, patch: Patch) -> None:
             case "drag_rise_mach":  # Each cell's polynomial in Mach, read a little further on.
                 drag, shift = table.coefficients[:, :, 1], amount / 0.05
                 powers_of = [
-                    [math.comb(k, j) * shift ** (k - j) if k >= j else 0.0 for j in range(4)] for k in range(4)
+                    [math.comb(k, j) * shift ** (k - j) if k >= j else 0.0 for j in range(4)]
+                    for k in range(4)
                 ]
                 cells[:, :, 1] = drag @ np.array(powers_of)
         return replace(table, coefficients=np.ascontiguousarray(cells), moment_coefficients=moment)

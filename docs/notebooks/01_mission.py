@@ -29,7 +29,8 @@ for mu, best in alone.items():
     print(f"µ {mu:.1f}: {best.twist.spec():20s} {best.best.power / 1e3:7.1f} kW")
 print(f"mission: {mission.twist.spec()}, mean {mission.best.power / 1e3:.1f} kW")
 lost = sum(
-    time * (rotor.solve(mission.design.at(mu=mu)).power.total - alone[mu].best.power) for mu, time in hours.items()
+    time * (rotor.solve(mission.design.at(mu=mu)).power.total - alone[mu].best.power)
+    for mu, time in hours.items()
 ) / sum(hours.values())
 print(f"a blade that had the best twist in every condition would save another {lost / 1e3:.1f} kW")
 
@@ -41,7 +42,9 @@ print(f"{np.degrees(band.low):.1f}° to {np.degrees(band.high):.1f}° cost less 
 
 rates = np.arange(-22.0, -3.9, 2.0)
 for mu in hours:
-    power = np.array([rotor.solve(design.at(mu=mu).with_twist(f"linear:{rate:g}")).power.total for rate in rates])
+    power = np.array(
+        [rotor.solve(design.at(mu=mu).with_twist(f"linear:{rate:g}")).power.total for rate in rates]
+    )
     plt.plot(rates, 100.0 * (power / power.min() - 1.0), label=f"µ {mu:.1f}, {hours[mu]:.1f} h")
 plt.axvspan(np.degrees(band.low), np.degrees(band.high), alpha=0.2, label="mission, within 0.1 %")
 plt.xlabel("Linear twist [°]")

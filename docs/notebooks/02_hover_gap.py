@@ -48,7 +48,9 @@ gap = power - np.array([one.cp for one in solutions])
 
 print("  CT/σ    gap [%]   profile ×   induced ×")
 for ct, lack, whole, drag, wake in zip(thrust, gap, power, profile, induced, strict=True):
-    print(f"{ct / sigma:6.3f} {100 * lack / whole:9.1f} {1 + lack / drag:11.3f} {1 + lack / wake:11.3f}")
+    print(
+        f"{ct / sigma:6.3f} {100 * lack / whole:9.1f} {1 + lack / drag:11.3f} {1 + lack / wake:11.3f}"
+    )
 
 # %%
 # Fit both at once: gap = a · profile + b · induced, with a and b not negative. Leave out each point in turn to see how
@@ -61,10 +63,14 @@ others = [nnls(parts[rows], gap[rows])[0] for rows in kept]
 print(f"profile power × {1 + a:.3f}, induced power × {1 + b:.3f}")
 for name, k, best in (("profile", 0, a), ("induced", 1, b)):
     low, high = min(fit[k] for fit in others), max(fit[k] for fit in others)
-    print(f"{name}: missing {100 * best:.1f} %, {100 * low:.1f} % to {100 * high:.1f} % with one point left out")
+    print(
+        f"{name}: missing {100 * best:.1f} %, {100 * low:.1f} % to {100 * high:.1f} % with one point left out"
+    )
 drag = a * profile.sum() / (a * profile.sum() + b * induced.sum())
 left = np.abs(gap - parts @ (a, b)) / power
-print(f"drag is {100 * drag:.0f} % of the gap as fitted, which leaves up to {100 * left.max():.1f} % of the power")
+print(
+    f"drag is {100 * drag:.0f} % of the gap as fitted, which leaves up to {100 * left.max():.1f} % of the power"
+)
 
 # %%
 # Ten digitised points of unclear origin only show where to look. Contracting wakes, free or prescribed, hardly give

@@ -22,10 +22,14 @@ rigid = replace(elastic, models=replace(elastic.models, elastic_twist=False))
 
 solutions = {"rigid": rotor.solve(rigid).require(), "elastic": rotor.solve(elastic).require()}
 for name, one in solutions.items():
-    print(f"{name:8s} {one.power.total / 1e3:7.1f} kW, collective {np.degrees(one.controls.collective):.2f}°")
+    print(
+        f"{name:8s} {one.power.total / 1e3:7.1f} kW, collective {np.degrees(one.controls.collective):.2f}°"
+    )
 twist = solutions["elastic"].disk.elastic_twist
 tip = np.degrees(twist[-1])
-print(f"elastic twist at the tip: mean {tip.mean():.2f}°, from {tip.min():.2f}° to {tip.max():.2f}° in one revolution")
+print(
+    f"elastic twist at the tip: mean {tip.mean():.2f}°, from {tip.min():.2f}° to {tip.max():.2f}° in one revolution"
+)
 
 # %%
 # Elastic twist over the disk varies with azimuth, as the moments on the blade do.
@@ -38,11 +42,15 @@ rotor.plot_field(solutions["elastic"], "elastic_twist")
 rates = np.arange(-20.0, -3.9, 2.0)
 best = {}
 for name, design in (("rigid", rigid), ("elastic", elastic)):
-    power = np.array([rotor.solve(design.with_twist(f"linear:{rate:g}")).require().power.total for rate in rates])
+    power = np.array(
+        [rotor.solve(design.with_twist(f"linear:{rate:g}")).require().power.total for rate in rates]
+    )
     fit = np.poly1d(np.polyfit(rates, power, 4))
     fine = np.linspace(rates[0], rates[-1], 500)
     best[name] = fine[np.argmin(fit(fine))]
-    print(f"{name:8s} least power {fit(best[name]) / 1e3:.1f} kW at a built-in twist of {best[name]:.1f}°")
+    print(
+        f"{name:8s} least power {fit(best[name]) / 1e3:.1f} kW at a built-in twist of {best[name]:.1f}°"
+    )
     plt.plot(rates, power / 1e3, "o-", label=name)
 plt.xlabel("Linear built-in twist [°]")
 plt.ylabel("Total power [kW]")
@@ -54,7 +62,9 @@ plt.legend()
 flown = {name: elastic.with_twist(f"linear:{rate:.3f}") for name, rate in best.items()}
 powers = {name: rotor.solve(design).require().power.total for name, design in flown.items()}
 lost = powers["rigid"] - powers["elastic"]
-print(f"the optimum moves by {best['elastic'] - best['rigid']:+.1f}°; neglecting this costs {lost / 1e3:.2f} kW")
+print(
+    f"the optimum moves by {best['elastic'] - best['rigid']:+.1f}°; neglecting this costs {lost / 1e3:.2f} kW"
+)
 
 # %%
 explorer.show(flown["elastic"], browser=False)

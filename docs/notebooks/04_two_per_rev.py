@@ -35,14 +35,21 @@ changes, best = {}, {}
 for title, host in hosts.items():
     installed = install(find_actuator("MFC_P1"), default_placement(), host, design.rotor)
     degrees = math.degrees(tip_amplitude(installed))
-    driven = [installed.on(rotor.make_design(mu=0.35, twist_per_rev=[(2, degrees, phase)])) for phase in phases]
+    driven = [
+        installed.on(rotor.make_design(mu=0.35, twist_per_rev=[(2, degrees, phase)]))
+        for phase in phases
+    ]
     changes[title] = [effect(one, installed.on(design)).power[0] / 1e3 for one in driven]
     least = min(changes[title])
     best[title] = driven[changes[title].index(least)]
     net = effect(with_actuator_mass(best[title], installed), design).power[0] / 1e3
-    print(f"{title}: torsion at {installed.frequency:.2f}/rev, tip of the blade at rest ±{degrees:.2f}°")
+    print(
+        f"{title}: torsion at {installed.frequency:.2f}/rev, tip of the blade at rest ±{degrees:.2f}°"
+    )
     print(f"  its twist moves power by {least:+.1f} kW")
-    print(f"  with its {installed.masses.aircraft:.0f} kg and its stiffness, without its drive: {net:+.1f} kW")
+    print(
+        f"  with its {installed.masses.aircraft:.0f} kg and its stiffness, without its drive: {net:+.1f} kW"
+    )
 
 # %%
 # Phase decides whether the same amplitude costs or saves power.

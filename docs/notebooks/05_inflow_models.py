@@ -28,20 +28,31 @@ names = [
 # %%
 # First compare the induced power of one design.
 
-solutions = {name: rotor.solve(rotor.make_design(twist="linear:-10", mu=0.2, inflow=name)) for name in names}
+solutions = {
+    name: rotor.solve(rotor.make_design(twist="linear:-10", mu=0.2, inflow=name)) for name in names
+}
 for name, solution in solutions.items():
-    print(f"{name:28s} κ {solution.induced_power_factor:.3f}   total {solution.power.total / 1e3:7.1f} kW")
+    print(
+        f"{name:28s} κ {solution.induced_power_factor:.3f}   total {solution.power.total / 1e3:7.1f} kW"
+    )
 
 # %%
 # Plot power over twist with each model. Most simple models keep the shape of the inflow whatever the blade does.
 
 rates = np.arange(-20.0, -1.9, 3.0)
 curves = {
-    name: np.array([rotor.solve(one.design.with_twist(f"linear:{rate:g}")).power.total for rate in rates])
+    name: np.array(
+        [rotor.solve(one.design.with_twist(f"linear:{rate:g}")).power.total for rate in rates]
+    )
     for name, one in solutions.items()
 }
 for name, power in curves.items():
-    plt.plot(rates, 100 * (power / power.min() - 1.0), label=name, linewidth=2.5 if name == reference else 1.2)
+    plt.plot(
+        rates,
+        100 * (power / power.min() - 1.0),
+        label=name,
+        linewidth=2.5 if name == reference else 1.2,
+    )
 plt.xlabel("Linear twist [°]")
 plt.ylabel("Power above its least [%]")
 plt.legend()
@@ -57,9 +68,14 @@ least = cost(fine).min()
 for name, power in curves.items():
     best = fine[np.argmin(np.poly1d(np.polyfit(rates, power, 4))(fine))]
     wrong[name] = 100 * (cost(best) / least - 1)
-    print(f"{name:28s} best twist {best:6.1f}°, solved with the lifting line {wrong[name]:.2f} % above the least")
+    print(
+        f"{name:28s} best twist {best:6.1f}°, solved with the lifting line {wrong[name]:.2f} % above the least"
+    )
 misled = max(wrong, key=lambda name: wrong[name])
-off = {name: 100 * (one.power.total / solutions[reference].power.total - 1) for name, one in solutions.items()}
+off = {
+    name: 100 * (one.power.total / solutions[reference].power.total - 1)
+    for name, one in solutions.items()
+}
 print(f"misleads most about twist: {misled}, by {wrong[misled]:.2f} % of the power")
 lowest = min(off, key=lambda name: off[name])
 print(f"misleads most about power itself: {lowest}, by {off[lowest]:+.1f} %")

@@ -48,7 +48,9 @@ for ax, name in zip(axes, ("BL", "MN"), strict=True):
     found = show(ax, name, "tip_twist_deg", 1.0)
     ax.set_xlabel("Azimuth [°]")
     for n in (1, 2, 3):
-        sizes = f"measured {found.amplitude(n, measured=True):.2f}°, computed {found.amplitude(n):.2f}°"
+        sizes = (
+            f"measured {found.amplitude(n, measured=True):.2f}°, computed {found.amplitude(n):.2f}°"
+        )
         print(f"{name} {n}/rev: {sizes}, difference as vectors {100 * found.miss(n):.0f} %")
 axes[0].set_ylabel("Elastic twist of the tip [°]")
 

@@ -30,7 +30,10 @@ for mu in (0.2, 0.3, 0.35):
     found = [rotor.hub_loads(rotor.solve(design)) for design in designs]
     plt.plot(rates, [loads.index for loads in found], "o-", label=f"µ {mu:g}")
     plt.fill_between(rates, *zip(*(loads.band for loads in found), strict=True), alpha=0.15)
-    print(f"µ {mu:g}: " + ", ".join(f"{rate}° {one.index:.2f} %" for rate, one in zip(rates, found, strict=True)))
+    print(
+        f"µ {mu:g}: "
+        + ", ".join(f"{rate}° {one.index:.2f} %" for rate, one in zip(rates, found, strict=True))
+    )
 plt.xlabel("Linear twist [°]")
 plt.ylabel("Index [% of the weight]")
 plt.legend()
@@ -40,7 +43,9 @@ plt.legend()
 
 design = rotor.make_design(mu=0.3, bending=True)
 loads = rotor.hub_loads(rotor.solve(design))
-print(f"µ 0.3: index {loads.index:.1f} %, over inflow models {loads.band[0]:.1f} to {loads.band[1]:.1f} %")
+print(
+    f"µ 0.3: index {loads.index:.1f} %, over inflow models {loads.band[0]:.1f} to {loads.band[1]:.1f} %"
+)
 for name, size in loads.amplitudes.items():
     print(f"  {name} {size:.0f} {'N' if name[0] == 'f' else 'N m'}")
 
@@ -89,7 +94,10 @@ print("largest error of the matrix: power {:.2f} %, index {:.1f} %".format(*fron
 
 fixed = rotor.vibration_front(design, "two-segment", points=4)
 figure, ax = plt.subplots()
-for found, label in ((front, "2/rev and 3/rev on the blade as built"), (fixed, "static twist, two segments")):
+for found, label in (
+    (front, "2/rev and 3/rev on the blade as built"),
+    (fixed, "static twist, two segments"),
+):
     ax.plot(*zip(*found.changes, strict=True), "o-", label=label)
 ax.plot(0.0, 0.0, "ks", label="as built")
 ax.set_xlabel("Change of power [%]")

@@ -41,8 +41,13 @@ from rotor.validation.thesis import ladder, readings
 
 names = tuple(ladder.RUNGS)
 speeds = (0.0, 0.2, 0.35)
-rungs = {"preset thesis": (), **{words: names[: k + 1] for k, words in enumerate(ladder.RUNGS.values())}}
-best = {words: [ladder.linear_optimum(on, mu, None) for mu in speeds] for words, on in rungs.items()}
+rungs = {
+    "preset thesis": (),
+    **{words: names[: k + 1] for k, words in enumerate(ladder.RUNGS.values())},
+}
+best = {
+    words: [ladder.linear_optimum(on, mu, None) for mu in speeds] for words, on in rungs.items()
+}
 print("best linear twist [°/R]                           hover   µ 0.2  µ 0.35")
 for words, row in best.items():
     print(f"{words:46s}" + "".join(f"{least.rate_deg:8.1f}" for least in row))
@@ -50,7 +55,9 @@ for words, row in best.items():
 places = range(len(best))
 for k, mu in enumerate(speeds):
     column = [row[k] for row in best.values()]
-    plt.plot([least.rate_deg for least in column], places, "o-", label=f"µ {mu:g}" if mu else "hover")
+    plt.plot(
+        [least.rate_deg for least in column], places, "o-", label=f"µ {mu:g}" if mu else "hover"
+    )
     plt.fill_betweenx(places, *zip(*(least.band_deg for least in column), strict=True), alpha=0.15)
 plt.yticks(places, list(best))
 plt.gca().invert_yaxis()
@@ -103,10 +110,14 @@ for kmh in (0.0, ladder.FAST_KMH):
 # section 3.3 judge each reading. A twist that it calls best may need 0.1 % more than the minimum.
 
 found = readings.judged_readings()
-print(f"{len(found)} readings; statements that hold, whatever F is on, the unit of twist and the count of power")
+print(
+    f"{len(found)} readings; statements that hold, whatever F is on, the unit of twist and the count of power"
+)
 for section in readings.SECTIONS:
     counts = [sum(one.holds) for one in found if one.reading.section == section]
-    print(f"{readings.described(section):34s}{min(counts)} to {max(counts)} of {len(readings.STATEMENTS)}")
+    print(
+        f"{readings.described(section):34s}{min(counts)} to {max(counts)} of {len(readings.STATEMENTS)}"
+    )
 
 # %%
 # The reading with which most statements hold follows, with the power by which it misses each; for −16° in hover, the
@@ -114,7 +125,9 @@ for section in readings.SECTIONS:
 
 first = found[0]
 chosen = first.reading
-print(f"{readings.described(chosen.section)}; F on {chosen.loss_on}; twist {chosen.unit}; power as {chosen.counted}")
+print(
+    f"{readings.described(chosen.section)}; F on {chosen.loss_on}; twist {chosen.unit}; power as {chosen.counted}"
+)
 for words, excess, holds in zip(readings.STATEMENTS, first.excess, first.holds, strict=True):
     print(f"  {'yes' if holds else 'no ':3s} {words:40s}{100 * excess:6.2f} %")
 

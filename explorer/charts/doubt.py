@@ -20,8 +20,15 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
     """The sentence, what each uncertain input does to the change of power, or where there is none to power, and what
     other models give."""
     unit = units.power[0]
-    title = "Sources of uncertainty in the change" if band.change is not None else "Sources of uncertainty"
-    sizes = [(row, abs(unit.of(row.power if row.change is None else row.change))) for row in band.rows[:MOST_ROWS]]
+    title = (
+        "Sources of uncertainty in the change"
+        if band.change is not None
+        else "Sources of uncertainty"
+    )
+    sizes = [
+        (row, abs(unit.of(row.power if row.change is None else row.change)))
+        for row in band.rows[:MOST_ROWS]
+    ]
     longest = max((size for _, size in sizes), default=0.0) or 1.0
     rows = [
         tag(
@@ -40,7 +47,12 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
     with_others = tag("div.rx-dim", words) if models else Markup()
     held = tag("div.rx-dim", f"{coverage_words()}.") if band.of == "Power" else Markup()
     return tag(
-        "div.rx.rx-doubt", tag("b", band.sentence), held, tag("div.rx-dim", title), tag("table", rows), with_others
+        "div.rx.rx-doubt",
+        tag("b", band.sentence),
+        held,
+        tag("div.rx-dim", title),
+        tag("table", rows),
+        with_others,
     )
 
 
@@ -49,7 +61,10 @@ def _in_words(beside: OtherModels, band: Doubt, units: Units) -> str:
     words = f"{beside.name} {units.watts(beside.power)}"
     if beside.change is None or band.change_band is None:
         return words
-    percent, within = (100.0 * size / abs(beside.power - beside.change) for size in (beside.change, band.change_band))
+    percent, within = (
+        100.0 * size / abs(beside.power - beside.change)
+        for size in (beside.change, band.change_band)
+    )
     return f"{words}, {'saves' if percent <= 0.0 else 'costs'} {banded(abs(percent), within, '%')}"
 
 
@@ -88,5 +103,11 @@ def _cause(each: TwistRange, units: Units) -> str:
         case _:
             pass
     assert each.ends is not None
-    unit, digits = (units.mass, 0 if units.mass.size < 1.0 else 1) if each.cause == "mass" else (_SQUARE_METRE, 1)
-    return f"{each.cause} {number(unit.of(each.ends[0]), digits)} … {unit.text(each.ends[1], digits)}"
+    unit, digits = (
+        (units.mass, 0 if units.mass.size < 1.0 else 1)
+        if each.cause == "mass"
+        else (_SQUARE_METRE, 1)
+    )
+    return (
+        f"{each.cause} {number(unit.of(each.ends[0]), digits)} … {unit.text(each.ends[1], digits)}"
+    )

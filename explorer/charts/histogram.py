@@ -12,7 +12,12 @@ _BINS = 10
 
 def histogram(powers: Sequence[float], ends: tuple[float, float], units: Units) -> Chart:
     """How many players have which least power [W], in bins from the least of the game to its start (`ends`)."""
-    unit, least, start = units.power[0], ends[0], max(ends[1], ends[0] + 1.0)  # Whatever a link holds.
+    # Whatever a link holds.
+    unit, least, start = (
+        units.power[0],
+        ends[0],
+        max(ends[1], ends[0] + 1.0),
+    )
     counts, edges = np.histogram(np.clip(powers, least, start), _BINS, (least, start))
     steps = np.repeat([unit.of(float(edge) - least) for edge in edges], 2)
     heights = np.concatenate([[0.0], np.repeat(counts, 2), [0.0]])

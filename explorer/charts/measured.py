@@ -24,7 +24,12 @@ _KEPT = 20
 _REDRAW_S = 0.3
 """[s] between two drawings of a curve that grows."""
 _MILLE = "×10³"
-_AXES = {"ct": ("CT ×10³", 1e3), "ct_over_sigma": ("CT/σ", 1.0), "mu": ("µ", 1.0), "collective_deg": ("θ₀ [°]", 1.0)}
+_AXES = {
+    "ct": ("CT ×10³", 1e3),
+    "ct_over_sigma": ("CT/σ", 1.0),
+    "mu": ("µ", 1.0),
+    "collective_deg": ("θ₀ [°]", 1.0),
+}
 _QUANTITIES = {
     "ct": ("CT over the collective", "CT ×10³", 1e3),
     "cp": ("CP over CT", "CP ×10³", 1e3),
@@ -56,14 +61,20 @@ class MeasuredChart:
         places = [wide * point[along] for point in measured.points]
         values = [size * point[measured.quantity] for point in measured.points]
         scatter = [size * measured.scatter_of(point) for point in measured.points]
-        computed = [(wide * one.given[along], size * one.computed[measured.quantity]) for one in known if one.computed]
+        computed = [
+            (wide * one.given[along], size * one.computed[measured.quantity])
+            for one in known
+            if one.computed
+        ]
         computed.sort()
         x = wide * place_of(solution)[along]
         y = size * now
         seen = [*values, *(value for _, value in computed), *([y] if math.isfinite(y) else [])]
         low, high = min(places), max(places)
         points = (*known, *[None] * len(values))
-        words = [_words(measured, value, point) for value, point in zip(values, points, strict=False)]
+        words = [
+            _words(measured, value, point) for value, point in zip(values, points, strict=False)
+        ]
         value, note = _summary(measured, known, solution)
         both = unit.endswith(_MILLE) and axis.endswith(_MILLE)
         return Chart(
@@ -71,7 +82,11 @@ class MeasuredChart:
             Axis(range=(min(0.0, low), max(high, min(x, 1.3 * high)) * 1.04)),
             Axis("both ×10³" if both else unit, held_range(previous, min(seen), max(seen))),
             (
-                role_line("saving", [place for place, _ in computed], [value_here for _, value_here in computed]),
+                role_line(
+                    "saving",
+                    [place for place, _ in computed],
+                    [value_here for _, value_here in computed],
+                ),
                 Points("", places, values, INK, "ring", scatter, words, size=2.6),
                 now_dot(x, y),
             ),
@@ -85,7 +100,9 @@ class MeasuredChart:
             self._now = solution, quantity_of(measured.quantity, solution, measured)
         return self._now[1] if self._now is not None and self._now[0] is solution else math.nan
 
-    def trim_points(self, solution: Solution, shown: Callable[[], None]) -> Generator[None, None, None]:
+    def trim_points(
+        self, solution: Solution, shown: Callable[[], None]
+    ) -> Generator[None, None, None]:
         """Trim at every measured point, yielding before each; `shown`: called when there is more to draw."""
         measured = set_shown(solution)
         if measured is None:
@@ -114,7 +131,9 @@ def set_shown(solution: Solution) -> MeasuredSet | None:
 def _key(measured: MeasuredSet, design: Design) -> tuple[str, Design]:
     """A set, and the design without its condition."""
     any_test = FlightCondition(0.0, design.aircraft.mass, stand=Stand(ct_over_sigma=0.07))
-    return measured.name, replace(design, condition=any_test, models=replace(design.models, trim="wind-tunnel"))
+    return measured.name, replace(
+        design, condition=any_test, models=replace(design.models, trim="wind-tunnel")
+    )
 
 
 def _words(measured: MeasuredSet, value: float, point: ComparedPoint | None) -> str:
@@ -129,7 +148,9 @@ def _words(measured: MeasuredSet, value: float, point: ComparedPoint | None) -> 
     return f"{words}, computed {computed:.4g}, {number(point.error_percent, 1, sign=True)} %"
 
 
-def _summary(measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution: Solution) -> tuple[str, str]:
+def _summary(
+    measured: MeasuredSet, points: tuple[ComparedPoint, ...], solution: Solution
+) -> tuple[str, str]:
     """For the corner, the error at the present point where that is a measured one, and the rms; then the source."""
     source = f"Measured: {measured.report}."
     condition = solution.design.condition
@@ -178,13 +199,18 @@ class FlownPowers:
 
     def value(self, solution: Solution) -> str:
         """The error at the present flight where it is a measured one."""
-        here = next((flight for flight in _shown(solution.design) if flight.same_flight(solution.design)), None)
+        here = next(
+            (flight for flight in _shown(solution.design) if flight.same_flight(solution.design)),
+            None,
+        )
         if here is None:
             return ""
         percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
         return f"{here.case}: {number(percent, 1, sign=True)} %"
 
-    def trim_flights(self, solution: Solution, shown: Callable[[], None]) -> Generator[None, None, None]:
+    def trim_flights(
+        self, solution: Solution, shown: Callable[[], None]
+    ) -> Generator[None, None, None]:
         """Trim in every measured flight, yielding before each; `shown`: called when there is more to draw."""
         flights = _shown(solution.design)
         if not flights:
@@ -198,7 +224,9 @@ class FlownPowers:
         for flight in flights:
             if flight.case not in known:
                 yield
-                trimmed = solve(key.at(mu=flight.mu, mass_kg=flight.mass, altitude_m=flight.altitude))
+                trimmed = solve(
+                    key.at(mu=flight.mu, mass_kg=flight.mass, altitude_m=flight.altitude)
+                )
                 known[flight.case] = trimmed.power.main_rotor if trimmed.converged else math.nan
         shown()
 

@@ -30,7 +30,11 @@ def held_range(previous: Range | None, low: float, high: float) -> Range:
     """A round axis range, in the unit of the data, that is kept while they fit into it and fill it reasonably."""
     if not (math.isfinite(low) and math.isfinite(high)):
         return previous or (0.0, 1.0)
-    if previous is not None and previous[0] <= low and high <= previous[1] <= previous[0] + 2.5 * (high - low):
+    if (
+        previous is not None
+        and previous[0] <= low
+        and high <= previous[1] <= previous[0] + 2.5 * (high - low)
+    ):
         return previous
     # Leave a margin, but not below zero where no value is negative.
     span = max(high - low, 1e-6)
@@ -90,9 +94,13 @@ class PowerCurve:
 
     def in_unit(self, unit: Unit) -> "PowerCurve":
         """The curve in a unit other than kW."""
-        powers = {name: getattr(self, name) for name in ("design", "reference", "ideal", "main_rotor")}
+        powers = {
+            name: getattr(self, name) for name in ("design", "reference", "ideal", "main_rotor")
+        }
         factor = KILOWATT.size / unit.size
-        return replace(self, **{name: factor * power for name, power in powers.items() if power is not None})
+        return replace(
+            self, **{name: factor * power for name, power in powers.items() if power is not None}
+        )
 
 
 class PowerCurves:
@@ -165,8 +173,14 @@ class PowerCurves:
         begun, slow = time.monotonic(), int(slowest_swept(family) > 0.0)
         values = np.full((3, len(SWEEP)), math.nan)
         points: dict[int, Guess] = {}
-        before = self._starts if self._last is not None and _same_unknowns(self._last, family) else {}
-        base = self._fine[1] if self._fine is not None and _same_unknowns(self._fine[0], family) else None
+        before = (
+            self._starts if self._last is not None and _same_unknowns(self._last, family) else {}
+        )
+        base = (
+            self._fine[1]
+            if self._fine is not None and _same_unknowns(self._fine[0], family)
+            else None
+        )
         end, lost = len(SWEEP), 0
         few = _FEW if base is None else _FEWEST
         for k in (*few, *(k for k in range(end) if k not in few)):
@@ -184,10 +198,13 @@ class PowerCurves:
                 design = family.at(mu=SWEEP[k])
             except ValueError:  # A free rotor in hover.
                 continue
-            if vortex_ring(design):  # In descent slow flight has no answer, while faster flight has.
+            # In descent slow flight has no answer, while faster flight has.
+            if vortex_ring(design):
                 continue
             starts = before if k in before else points
-            point = solve(design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None)
+            point = solve(
+                design, starts[min(starts, key=lambda known: abs(known - k))] if starts else None
+            )
             if point.converged:
                 # Drop the derivatives, which take much memory.
                 points[k], values[:, k] = replace(point.start, box=None), _powers(point)
@@ -212,7 +229,11 @@ def slowest_swept(design: Design) -> float:
 
 def _same_unknowns(design: Design, other: Design) -> bool:
     """Whether trims of one design are starts for the other: the same unknowns on the same grid."""
-    return (design.rotor, design.models, design.condition.stand) == (other.rotor, other.models, other.condition.stand)
+    return (design.rotor, design.models, design.condition.stand) == (
+        other.rotor,
+        other.models,
+        other.condition.stand,
+    )
 
 
 def _powers(point: Solution) -> tuple[float, float, float]:
@@ -235,5 +256,7 @@ def _bridged(values: Array, first: int, base: Array | None) -> Array:
     for row, known in enumerate(have):
         if known.sum() >= 2:
             line = PchipInterpolator(k[known], (values - base)[row, known], extrapolate=False)
-            filled[row] = np.where(np.isfinite(values[row]) | (k < first), values[row], base[row] + line(k))
+            filled[row] = np.where(
+                np.isfinite(values[row]) | (k < first), values[row], base[row] + line(k)
+            )
     return filled

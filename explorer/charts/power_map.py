@@ -106,8 +106,14 @@ def least_words(drawn: PowerMap, units: Units) -> str:
     every = drawn.task.concept.parameters
     best = ", ".join(at(*one) for one in zip(every, drawn.lowest[1], strict=True))
     least = zip(drawn.parameters, drawn.least[:2], strict=True)
-    ends = [at(p, p.low + part * (p.high - p.low)) for p, part in least if min(part, 1.0 - part) < 1e-6]
-    beyond = f" It lies at the bound of {' and '.join(ends)}: lower power may lie beyond it." if ends else ""
+    ends = [
+        at(p, p.low + part * (p.high - p.low)) for p, part in least if min(part, 1.0 - part) < 1e-6
+    ]
+    beyond = (
+        f" It lies at the bound of {' and '.join(ends)}: lower power may lie beyond it."
+        if ends
+        else ""
+    )
     return f"Least {total_words(drawn.least[2], units)} at {best}.{beyond}"
 
 
@@ -129,7 +135,9 @@ def _picture(drawn: PowerMap) -> bytes:
     excess = values / drawn.least[-1] - 1.0
     known = np.isfinite(excess)
     excess = np.where(known, excess, 9.0)
-    pixels = (1.0 + np.clip(excess / CONTOURS[-1], 0.0, 1.0) ** 0.5 * (_COLOURS - 1)).astype(np.uint8)
+    pixels = (1.0 + np.clip(excess / CONTOURS[-1], 0.0, 1.0) ** 0.5 * (_COLOURS - 1)).astype(
+        np.uint8
+    )
     ring = np.searchsorted([BAND, *CONTOURS], excess)
     change = np.zeros(ring.shape, dtype=bool)
     change[:, 1:] |= ring[:, 1:] != ring[:, :-1]
@@ -160,7 +168,9 @@ def drawing(drawn: PowerMap, twist: TwistLaw | None) -> Markup:
     area = tag("g.rx-map", image, data_map="", data_explorer="map")
     above = tag("g", marks, pointer_events="none")
     axes = tag("g", _across(across), _up(up), _bar(), font_size=12, fill="currentColor")
-    return svg.drawing(300, 266, f"Power over {rail_name(across)} and {rail_name(up)}", area, above, axes)
+    return svg.drawing(
+        300, 266, f"Power over {rail_name(across)} and {rail_name(up)}", area, above, axes
+    )
 
 
 def _star(x: float, y: float) -> Markup:
@@ -174,25 +184,42 @@ def _across(parameter: Parameter) -> Markup:
     ticks = bar_ticks(parameter.shown(parameter.low), parameter.shown(parameter.high))
     places = [(round(_LEFT + 0.01 * percent * _WIDE, 1), word) for percent, word in ticks]
     words = [tag("text", word, x=at, y=base + 13, text_anchor="middle") for at, word in places]
-    return group(words, [tag("path", d=f"M{at},{base} v4", stroke="currentColor") for at, _ in places])
+    return group(
+        words, [tag("path", d=f"M{at},{base} v4", stroke="currentColor") for at, _ in places]
+    )
 
 
 def _up(parameter: Parameter) -> Markup:
     ticks = bar_ticks(parameter.shown(parameter.low), parameter.shown(parameter.high))
     places = [(round(_TOP + (1.0 - 0.01 * percent) * _HIGH, 1), word) for percent, word in ticks]
     words = [tag("text", word, x=_LEFT - 6, y=at + 4, text_anchor="end") for at, word in places]
-    return group(words, [tag("path", d=f"M{_LEFT},{at} h-4", stroke="currentColor") for at, _ in places])
+    return group(
+        words, [tag("path", d=f"M{_LEFT},{at} h-4", stroke="currentColor") for at, _ in places]
+    )
 
 
 @cache
 def _bar() -> Markup:
     """The colours, with the contours at their places [%]."""
     colours = colour_map("sequential", 25)
-    stops = [tag("stop", offset=round(k / 24, 3), stop_color=css(colour)) for k, colour in enumerate(colours)]
-    places = [(_LEFT + math.sqrt(part / CONTOURS[-1]) * _WIDE, f"{100 * part:g}") for part in (0.0, *CONTOURS)]
+    stops = [
+        tag("stop", offset=round(k / 24, 3), stop_color=css(colour))
+        for k, colour in enumerate(colours)
+    ]
+    places = [
+        (_LEFT + math.sqrt(part / CONTOURS[-1]) * _WIDE, f"{100 * part:g}")
+        for part in (0.0, *CONTOURS)
+    ]
     return group(
         tag("linearGradient", stops, id="rx-map-colours"),
         tag("rect", x=_LEFT, y=224, width=_WIDE, height=9, rx=2, fill="url(#rx-map-colours)"),
         [tag("text", word, x=round(at, 1), y=246, text_anchor="middle") for at, word in places],
-        tag("text", "power above the least [%]", x=_LEFT + _WIDE / 2, y=262, text_anchor="middle", opacity=0.7),
+        tag(
+            "text",
+            "power above the least [%]",
+            x=_LEFT + _WIDE / 2,
+            y=262,
+            text_anchor="middle",
+            opacity=0.7,
+        ),
     )

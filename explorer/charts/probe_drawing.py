@@ -71,7 +71,9 @@ class _Sketch:
         return self.probe.u_t < 0.0
 
 
-def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False) -> tuple[Markup, DrawingScales]:
+def drawing(
+    probe: Probe, fastest: float, strongest: float, opened: bool = False
+) -> tuple[Markup, DrawingScales]:
     """The SVG, and its scales.
 
     `fastest` [m/s], `strongest` [N/m]: the greatest velocity and load on this disk. `opened`: small angles are drawn
@@ -86,7 +88,12 @@ def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False
         angles=next((k for k in range(OPENED, 1, -1) if opened and k * widest < _WIDEST), 1),
     )
     k = scales.angles
-    sketch = _Sketch(probe, k * probe.theta, k * probe.phi, k * (probe.theta - probe.phi) if k > 1 else probe.alpha)
+    sketch = _Sketch(
+        probe,
+        k * probe.theta,
+        k * probe.phi,
+        k * (probe.theta - probe.phi) if k > 1 else probe.alpha,
+    )
     parts = (
         _ground(sketch),
         _section(sketch),
@@ -96,7 +103,9 @@ def drawing(probe: Probe, fastest: float, strongest: float, opened: bool = False
     )
     label = "The blade section with its velocity triangle and forces"
     marks: dict[str, Attribute] = {"data_explorer": "probe-drawing", "aria_label": label}
-    return tag("svg", *parts, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", width="100%", role="img", **marks), scales
+    return tag(
+        "svg", *parts, viewBox=f"0 0 {WIDTH:g} {HEIGHT:g}", width="100%", role="img", **marks
+    ), scales
 
 
 def _factor(length: float, floor: float, factors: tuple[int, ...]) -> int:
@@ -112,12 +121,18 @@ def _turned(points: Array, angle: float) -> Array:
     """Points of blade axes (y to the nose, z up, in chords) on the drawing, the nose up by `angle`."""
     across, down = -_CHORD * points[:, 0], -_CHORD * points[:, 1]
     cos, sin = math.cos(angle), math.sin(angle)
-    return np.stack((_QUARTER[0] + across * cos - down * sin, _QUARTER[1] + across * sin + down * cos), axis=1)
+    return np.stack(
+        (_QUARTER[0] + across * cos - down * sin, _QUARTER[1] + across * sin + down * cos), axis=1
+    )
 
 
 def _section(sketch: _Sketch) -> Markup:
     shape = _turned(outline(sketch.probe.section), sketch.theta)
-    look: dict[str, Attribute] = {"fill": "rgba(128,128,128,.22)", "stroke": "currentColor", "stroke_width": 1.2}
+    look: dict[str, Attribute] = {
+        "fill": "rgba(128,128,128,.22)",
+        "stroke": "currentColor",
+        "stroke_width": 1.2,
+    }
     return svg.polygon([(x, y) for x, y in shape.tolist()], **look, stroke_linejoin="round")
 
 
@@ -125,7 +140,9 @@ def _ground(sketch: _Sketch) -> Markup:
     """The disk plane, and the chord line drawn out behind the section."""
     y = _QUARTER[1]
     plane = svg.line((4.0, y), (_QUARTER[0] + _RAY, y), width=0.9, dashes="5 4", opacity=0.55)
-    chord = svg.line(_ray(sketch.theta, -0.27 * _CHORD), _ray(sketch.theta, _RAY), width=0.8, opacity=_FAINT)
+    chord = svg.line(
+        _ray(sketch.theta, -0.27 * _CHORD), _ray(sketch.theta, _RAY), width=0.8, opacity=_FAINT
+    )
     return plane + chord
 
 
@@ -152,7 +169,9 @@ def _triangle(sketch: _Sketch, scale: float) -> Markup:
 def _angles(sketch: _Sketch) -> Markup:
     """θ from the disk plane to the chord, φ to the wind, α from the wind to the chord."""
     probe, small = sketch.probe, sketch.small
-    wind = svg.line(_ray(sketch.phi, 10.0), _ray(sketch.phi, _RAY if small else 76.0), width=0.8, opacity=_FAINT)
+    wind = svg.line(
+        _ray(sketch.phi, 10.0), _ray(sketch.phi, _RAY if small else 76.0), width=0.8, opacity=_FAINT
+    )
     theta, phi, alpha = (124.0, 98.0, 111.0) if small else (56.0, 32.0, 64.0)
     arcs = (
         svg.arc(_QUARTER, theta, 0.0, sketch.theta)
@@ -160,7 +179,9 @@ def _angles(sketch: _Sketch) -> Markup:
         + svg.arc(_QUARTER, alpha, sketch.phi, sketch.alpha, ALPHA, 1.8)
     )
     places = _in_column(sketch) if small else _around(sketch)
-    anchors = ("start", "start", "start", "end") if small else ("start", "middle", "middle", "start")
+    anchors = (
+        ("start", "start", "start", "end") if small else ("start", "middle", "middle", "start")
+    )
     words = (
         (f"θ {degrees(probe.theta, 1)}", "currentColor", None, None),
         (f"φ {degrees(probe.phi, 1)}", "currentColor", None, None),
@@ -169,26 +190,39 @@ def _angles(sketch: _Sketch) -> Markup:
     )
     labels = [
         svg.words(place, text, anchor, colour, weight=weight, opacity=opacity)
-        for place, anchor, (text, colour, weight, opacity) in zip(places, anchors, words, strict=True)
+        for place, anchor, (text, colour, weight, opacity) in zip(
+            places, anchors, words, strict=True
+        )
     ]
     return group(wind, arcs, labels)
 
 
 def _in_column(sketch: _Sketch) -> list[Point]:
     """Places of the words θ, φ, α and "disk plane" one beneath the other, each near what it names."""
-    heights = [_ray(angle, _RAY)[1] for angle in (sketch.theta, 0.5 * sketch.phi, sketch.phi + 0.5 * sketch.alpha, 0.0)]
+    heights = [
+        _ray(angle, _RAY)[1]
+        for angle in (sketch.theta, 0.5 * sketch.phi, sketch.phi + 0.5 * sketch.alpha, 0.0)
+    ]
     # The pitch spans both others: its word goes beyond the chord line, that of the plane to the other side.
     heights[0] += math.copysign(9.0, sketch.theta)
     heights[3] -= math.copysign(9.0, sketch.theta)
     edges = (_COLUMN, _COLUMN, _COLUMN, WIDTH - 1.0)
-    return [(x, height + 3.5) for x, height in zip(edges, svg.spread_heights(heights, 12.5), strict=True)]
+    return [
+        (x, height + 3.5)
+        for x, height in zip(edges, svg.spread_heights(heights, 12.5), strict=True)
+    ]
 
 
 def _around(sketch: _Sketch) -> list[Point]:
     """Places of the same words about the section, where angles are large."""
     x, y = _QUARTER
     inner, outer = _ray(0.5 * sketch.phi, 42.0), _ray(sketch.phi + 0.5 * sketch.alpha, 75.0)
-    return [(x + 46.0, y - 6.0), (inner[0], inner[1] + 3.5), (outer[0], outer[1] + 3.5), (4.0, y - 5.0)]
+    return [
+        (x + 46.0, y - 6.0),
+        (inner[0], inner[1] + 3.5),
+        (outer[0], outer[1] + 3.5),
+        (4.0, y - 5.0),
+    ]
 
 
 def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> Markup:
@@ -204,7 +238,13 @@ def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> Markup:
         svg.arrow(_QUARTER, (x + drag * cos, y + drag * sin), DRAG, 2.6),
         svg.arrow(_QUARTER, tip, LIFT, 3.2),
         tag("circle", cx=x, cy=y, r=2.4, fill=svg.BODY, stroke="currentColor", stroke_width=1.2),
-        svg.words(place, f"{text}{number(sketch.probe.lift / 1e3, 2)} kN/m", "start", LIFT_INK, weight=_BOLD),
+        svg.words(
+            place,
+            f"{text}{number(sketch.probe.lift / 1e3, 2)} kN/m",
+            "start",
+            LIFT_INK,
+            weight=_BOLD,
+        ),
     )
 
 
@@ -217,7 +257,9 @@ _CHIPS = {
 }
 
 
-def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured: Content = None) -> Markup:
+def probe_panel(
+    probe: Probe, solution: Solution, opened: bool = False, measured: Content = None
+) -> Markup:
     """Everything about one blade element, one beneath the other; `opened`: its small angles drawn wider.
 
     `measured`: airloads over the azimuth, as `measured_panel` draws them.
@@ -239,7 +281,10 @@ def probe_panel(probe: Probe, solution: Solution, opened: bool = False, measured
 
 
 def _head(probe: Probe) -> Markup:
-    alpha, chip = f"α {degrees(probe.alpha, 1)}", f"span.rx-push.rx-chip.rx-chip-{_CHIPS[probe.region]}"
+    alpha, chip = (
+        f"α {degrees(probe.alpha, 1)}",
+        f"span.rx-push.rx-chip.rx-chip-{_CHIPS[probe.region]}",
+    )
     return tag(
         "div.rx-line.rx-base",
         tag("span.rx-best", alpha, data_explorer="probe-alpha", title=tip("probe_alpha")),
@@ -251,8 +296,14 @@ def _head(probe: Probe) -> Markup:
 
 def _key(scales: DrawingScales) -> Markup:
     """The colours of the arrows, and what is drawn larger than true or than on the scale of the whole disk."""
-    entries = (("velocity", "currentColor", scales.velocity), ("lift", LIFT, scales.lift), ("drag", DRAG, scales.drag))
-    keys = [tag("span", dash(colour), f"{name}{_times(factor)}") for name, colour, factor in entries]
+    entries = (
+        ("velocity", "currentColor", scales.velocity),
+        ("lift", LIFT, scales.lift),
+        ("drag", DRAG, scales.drag),
+    )
+    keys = [
+        tag("span", dash(colour), f"{name}{_times(factor)}") for name, colour, factor in entries
+    ]
     view = f"angles{_times(scales.angles)}" if scales.angles > 1 else "seen from the hub"
     return tag("div.rx-line.rx-small.rx-dim.rx-base", keys, tag("span.rx-push", view))
 
@@ -270,12 +321,21 @@ def _table(probe: Probe) -> Markup:
         ("probe_cl", "C_l", number(probe.cl, 3)),
         ("probe_margin", "Stall margin", "–" if margin is None else degrees(margin, 1)),
         ("probe_cd", "C_d", number(probe.cd, 4)),
-        ("probe_elastic", "Elastic twist", "–" if probe.elastic is None else degrees(probe.elastic)),
+        (
+            "probe_elastic",
+            "Elastic twist",
+            "–" if probe.elastic is None else degrees(probe.elastic),
+        ),
         ("probe_section", "Section", sections_of(probe.section)),
         ("probe_power", "Power", f"{number(probe.power / 1e3, 1)} kW/m"),
     )
     cells = [
-        tag("div.rx-line", tag("span.rx-dim", with_indices(name)), tag("span.rx-num", value), title=tip(key))
+        tag(
+            "div.rx-line",
+            tag("span.rx-dim", with_indices(name)),
+            tag("span.rx-num", value),
+            title=tip(key),
+        )
         for key, name, value in entries
     ]
     return tag("div.rx-grid", cells)

@@ -67,7 +67,9 @@ def lift_chart(probe: Probe) -> Chart:
 
 def with_indices(words: str) -> Markup:
     """Text with the index of C_l and the like set low."""
-    return group(tag("sub", part) if k % 2 else part for k, part in enumerate(re.split(r"_(\w)", words)))
+    return group(
+        tag("sub", part) if k % 2 else part for k, part in enumerate(re.split(r"_(\w)", words))
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -92,13 +94,22 @@ def airload_comparison(solution: Solution, r: float) -> AirloadComparison | None
     case = None if design.hovering else nearest_case(design)
     if case is None:
         return None
-    curves = [curve for curve in airload_curves(case.rotor) if curve.case == case and curve.quantity in MEASURED]
+    curves = [
+        curve
+        for curve in airload_curves(case.rotor)
+        if curve.case == case and curve.quantity in MEASURED
+    ]
     if solution.elastic is None:
-        curves = [curve for curve in curves if curve.quantity not in ("tip_twist_deg", "pitch_link")]
+        curves = [
+            curve for curve in curves if curve.quantity not in ("tip_twist_deg", "pitch_link")
+        ]
     if not curves:
         return None
     nearest = [
-        min((curve for curve in curves if curve.quantity == quantity), key=lambda curve: abs(curve.r - r))
+        min(
+            (curve for curve in curves if curve.quantity == quantity),
+            key=lambda curve: abs(curve.r - r),
+        )
         for quantity in dict.fromkeys(curve.quantity for curve in curves)
     ]
     pairs = tuple((curve, *computed_curve(curve, solution)) for curve in nearest)
@@ -108,12 +119,20 @@ def airload_comparison(solution: Solution, r: float) -> AirloadComparison | None
 def measured_panel(beside: AirloadComparison, psi: float) -> Markup:
     """The curves one beneath the other; `psi`: azimuth of the probe [rad]."""
     condition = condition_of(beside.case.rotor, beside.case.name)
-    name = beside.case.name if condition is None else f"{condition.test}, {condition.label.partition(',')[0]}"
+    name = (
+        beside.case.name
+        if condition is None
+        else f"{condition.test}, {condition.label.partition(',')[0]}"
+    )
     report = REPORTS[beside.case.test]
-    differs = ["at another condition"] * (not beside.at_test) + ["with another twist"] * (not beside.blade)
+    differs = ["at another condition"] * (not beside.at_test) + ["with another twist"] * (
+        not beside.blade
+    )
     words = f"Computed {' and '.join(differs)}." if differs else ""
     value, what = beside.case.name, tip("fly_measured")
-    press = tag("button.rx-push", "Set test condition", data_do="flown", data_value=value, title=what)
+    press = tag(
+        "button.rx-push", "Set test condition", data_do="flown", data_value=value, title=what
+    )
     if beside.at_test or condition is None:
         press = None
     return tag(
@@ -135,12 +154,15 @@ def measured_panel(beside: AirloadComparison, psi: float) -> Markup:
 def correlation(measured: MeasuredCurve, psi: Array, computed: Array) -> float:
     """Correlation of the harmonics that are compared, without the mean, −1…1."""
     computed, other = (
-        harmonics(at, values, measured.highest)[1:] for at, values in ((psi, computed), (measured.psi, measured.values))
+        harmonics(at, values, measured.highest)[1:]
+        for at, values in ((psi, computed), (measured.psi, measured.values))
     )
     return float(computed @ other / math.sqrt((computed @ computed) * (other @ other)))
 
 
-def _chart(measured: MeasuredCurve, psi: Array, computed: Array, here: float, alike: bool) -> Markup:
+def _chart(
+    measured: MeasuredCurve, psi: Array, computed: Array, here: float, alike: bool
+) -> Markup:
     title, meaning = MEASURED[measured.quantity]
     where = "" if measured.quantity.startswith("tip_") else f" at {number(measured.r, 2)} R"
     seen = *measured.values.tolist(), *computed.tolist()

@@ -67,7 +67,8 @@ class ScheduleProgress:
 def twist_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
     """The best twist [°] of each leg, pale in hover to dark in fast flight, and the best fixed one, as far as known."""
     r, legs = np.linspace(0.13, 1.0, 80), len(progress.plan.conditions)
-    shades = colour_map("sequential", legs + 3)[2:]  # The ends of the map are not seen on every background.
+    # The ends of the map are not seen on every background.
+    shades = colour_map("sequential", legs + 3)[2:]
     lines: list[Line] = []
     for k, leg in enumerate((*range(legs), None)):
         optimum = progress.at(leg)
@@ -80,14 +81,20 @@ def twist_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | N
         return None
     seen = [value for line in lines for value in line.y]
     return Chart(
-        "Best twist", Axis("r/R", (0.1, 1.02)), Axis("°", held_range(previous, min(seen), max(seen))), tuple(lines)
+        "Best twist",
+        Axis("r/R", (0.1, 1.02)),
+        Axis("°", held_range(previous, min(seen), max(seen))),
+        tuple(lines),
     )
 
 
 def saving_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | None:
     """Saving of the best fixed blade and of the best twist per leg [% of the blade as it is]; legs that are known."""
     legs = [
-        (leg.flight.advance_ratio, *(value for band in progress.doubts(k) for value in _saving(band)))
+        (
+            leg.flight.advance_ratio,
+            *(value for band in progress.doubts(k) for value in _saving(band)),
+        )
         for k, leg in enumerate(progress.plan.conditions)
     ]
     mu, fixed, fixed_band, moving, band = (
@@ -97,7 +104,9 @@ def saving_chart(progress: ScheduleProgress, previous: Range | None) -> Chart | 
         return None
     seen = [
         0.0,
-        *np.nan_to_num([fixed - fixed_band, fixed + fixed_band, moving - band, moving + band]).ravel().tolist(),
+        *np.nan_to_num([fixed - fixed_band, fixed + fixed_band, moving - band, moving + band])
+        .ravel()
+        .tolist(),
     ]
     lines = (
         Points("", mu, moving, THIS, size=2.5, scatter=band),
@@ -126,8 +135,16 @@ def table(progress: ScheduleProgress, units: Units = SI) -> Markup:
         power = None if optimum is None else optimum.baseline_power
         baseline = None if power is None else units.power[0].of(power)
         cells = (number(baseline), *map(_percent, progress.doubts(k)))
-        rows.append(tag("tr", tag("td", number(mu, 2) if mu else "hover"), [tag("td.rx-num", cell) for cell in cells]))
-    return tag("div.rx.rx-found", verdict(progress, units), tag("table", rows), data_explorer="schedule")
+        rows.append(
+            tag(
+                "tr",
+                tag("td", number(mu, 2) if mu else "hover"),
+                [tag("td.rx-num", cell) for cell in cells],
+            )
+        )
+    return tag(
+        "div.rx.rx-found", verdict(progress, units), tag("table", rows), data_explorer="schedule"
+    )
 
 
 def _percent(band: Doubt | None) -> Content:
@@ -136,7 +153,11 @@ def _percent(band: Doubt | None) -> Content:
     if not word:
         return number(saved, 2)
     digits, kind = change_decimals(saved, within), change_kind(-saved, word)
-    words = f"{number(saved, digits)} ± {number(within, digits)}", tag("br"), tag("span.rx-small", word)
+    words = (
+        f"{number(saved, digits)} ± {number(within, digits)}",
+        tag("br"),
+        tag("span.rx-small", word),
+    )
     return tag("span", words, class_=kind and f"rx-{kind}")
 
 
@@ -150,7 +171,10 @@ def verdict(progress: ScheduleProgress, units: Units = SI) -> Markup:
         ("Best fixed blade", gain.baseline - gain.fixed, fixed and fixed.doubt),
         ("Variable twist, beyond that", gain.gain, progress.fixed.gain),
     )
-    cells = (tag("tr", tag("td", name), tag("td.rx-num", _saved(saved, band, units))) for name, saved, band in rows)
+    cells = (
+        tag("tr", tag("td", name), tag("td.rx-num", _saved(saved, band, units)))
+        for name, saved, band in rows
+    )
     return tag("table", cells)
 
 
@@ -174,7 +198,9 @@ def csv_of(progress: ScheduleProgress) -> bytes:
                 f"{leg.hours:g}",
                 _kilowatt(None if optimum is None else optimum.baseline_power),
                 _kilowatt(None if best is None else best.power),
-                "" if optimum is None or optimum.saving is None else f"{100.0 * optimum.saving:.3f}",
+                ""
+                if optimum is None or optimum.saving is None
+                else f"{100.0 * optimum.saving:.3f}",
                 *_banded_cells(moving),
                 _kilowatt(still and still.power),
                 *_banded_cells(still),
@@ -184,7 +210,12 @@ def csv_of(progress: ScheduleProgress) -> bytes:
     fixed = progress.at(None)
     if fixed is not None and fixed.best is not None:
         hours = sum(leg.hours for leg in progress.plan.conditions)
-        mean = (_kilowatt(fixed.baseline_power), *5 * ("",), _kilowatt(fixed.best.power), *_banded_cells(fixed.doubt))
+        mean = (
+            _kilowatt(fixed.baseline_power),
+            *5 * ("",),
+            _kilowatt(fixed.best.power),
+            *_banded_cells(fixed.doubt),
+        )
         rows.append(("mean", *("" for _ in names[1:]), f"{hours:g}", *mean, fixed.best.twist))
     return csv_text(rows).encode()
 

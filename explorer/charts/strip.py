@@ -97,7 +97,9 @@ def power_change_chart(
     now = math.nan if change is None else unit.of(change)
     reach = now, now - within, now + within
     seen = (*apart[mus <= max(0.4, mu)], *reach, 0.0)
-    near, whole = _scales((*_near(curve.design, apart), *reach, -2.0, 2.0), (*seen, -2.0, 2.0), held)
+    near, whole = _scales(
+        (*_near(curve.design, apart), *reach, -2.0, 2.0), (*seen, -2.0, 2.0), held
+    )
     line = _smooth("saving" if curve.current else "earlier", apart, filled=curve.current)
     hover = [_hover_dot(float(apart[0]))] if curve.current else []
     return Chart(
@@ -109,10 +111,14 @@ def power_change_chart(
     )
 
 
-def _scales(near: Sequence[float], whole: Sequence[float], held: Scales) -> tuple[Range, Range | None]:
+def _scales(
+    near: Sequence[float], whole: Sequence[float], held: Scales
+) -> tuple[Range, Range | None]:
     """The axis about some values, and that of all where it is another; each is held while its values fit."""
     ends = ([end(_known(of), default=math.nan) for end in (min, max)] for of in (near, whole))
-    first, second = (held_range(before, low, high) for before, (low, high) in zip(held, ends, strict=True))
+    first, second = (
+        held_range(before, low, high) for before, (low, high) in zip(held, ends, strict=True)
+    )
     return first, None if second == first else second
 
 
@@ -126,7 +132,9 @@ def autorotation_words(curve: PowerCurve) -> str:
     if not curve.current or not driven.any():
         return ""
     words = f"Autorotation between µ {mus[driven][0]:g} and {mus[driven][-1]:g}: the air drives the rotor."
-    return words if known[0] else f"{words} No solution below µ {mus[known][0]:g}: vortex ring state."
+    return (
+        words if known[0] else f"{words} No solution below µ {mus[known][0]:g}: vortex ring state."
+    )
 
 
 def total_power_chart(
@@ -149,7 +157,8 @@ def total_power_chart(
     power = here.design
     mus, now = np.array(SWEEP), math.nan if total is None else unit.of(total)
     flown = ((), ()) if marks is None else (marks.x, marks.y)
-    fastest = max(flown[0], default=0.4)  # Measured flights end far below µ 0.4, so their axis is shorter.
+    # Measured flights end far below µ 0.4, so their axis is shorter.
+    fastest = max(flown[0], default=0.4)
     values = (*power[mus <= max(fastest + 0.03, mu)], now, *flown[1])
     least = int(np.nanargmin(np.where(mus > 0.0, power, math.inf)))
     known = curve.current and math.isfinite(power[least])
@@ -166,7 +175,9 @@ def total_power_chart(
         note += " Gearbox losses and limits are not included, so the top speed is an upper bound."
         if math.isfinite(top) and value and now >= 0.0:
             value = f"top ≤ {units.speed[0].text(top * design.rotor.tip_speed)}"
-    shaft = [] if here.main_rotor is None or marks is None else [_smooth("reference", here.main_rotor)]
+    shaft = (
+        [] if here.main_rotor is None or marks is None else [_smooth("reference", here.main_rotor)]
+    )
     bowl, all_of_it = _near(power, power), (0.0, *values)
     y_range, whole = _scales((*bowl, now, *flown[1]) if bowl else all_of_it, all_of_it, held)
     return Chart(
@@ -234,7 +245,9 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
         return chart, math.nan
     walls, marks = [(float(x[-1]), "no trim")] if x[-1] < mus[-1] else [], ()
     installed = design.aircraft.installed_power
-    if installed is not None and math.isfinite(top := top_speed(mus, curve.design, installed / KILOWATT.size)):
+    if installed is not None and math.isfinite(
+        top := top_speed(mus, curve.design, installed / KILOWATT.size)
+    ):
         walls.append((top, "engines"))
     if design.vertical_speed == 0.0:
         marks = _economic_speeds(tuple(x.tolist()), tuple(power.tolist()))
@@ -261,7 +274,9 @@ def with_speeds(chart: Chart, curve: PowerCurve, design: Design) -> tuple[Chart,
 
 
 @lru_cache(maxsize=8)
-def _economic_speeds(mus: tuple[float, ...], power: tuple[float, ...]) -> tuple[tuple[float, str], ...]:
+def _economic_speeds(
+    mus: tuple[float, ...], power: tuple[float, ...]
+) -> tuple[tuple[float, str], ...]:
     """µ of least power and of least power over speed, with what it is best for, where they lie within the curve.
 
     Kept, because a curve stays the same while the speed is dragged.
@@ -297,16 +312,28 @@ def alpha_chart(
     finite = np.concatenate(seen)
     finite = np.clip(finite[np.isfinite(finite)], -15.0, 20.0)
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
-    value, note = _margin(r, np.minimum(upper - alpha, alpha - lower)) if solution.design.models.stall else ("", "")
+    value, note = (
+        _margin(r, np.minimum(upper - alpha, alpha - lower))
+        if solution.design.models.stall
+        else ("", "")
+    )
     y_range = held_range(previous, min(low, -2.0), max(high, 14.0))
     limits = _mostly_seen([role_line("limit", r, limit) for limit in (lower, upper)], y_range)
     return Chart(
-        "Angle of attack", _ALONG, Axis("° on the red blade", y_range), (*limits, *lines), value=value, note=note
+        "Angle of attack",
+        _ALONG,
+        Axis("° on the red blade", y_range),
+        (*limits, *lines),
+        value=value,
+        note=note,
     )
 
 
 def lift_chart(
-    solution: Solution, reference: Solution | None, previous: Range | None = None, compared: Role = "reference"
+    solution: Solution,
+    reference: Solution | None,
+    previous: Range | None = None,
+    compared: Role = "reference",
 ) -> Chart:
     """Lift of one blade per metre of span, mean of a revolution [kN/m]."""
     lines = [role_line("this", solution.disk.r, lift_per_metre(solution) / 1e3)]
@@ -315,7 +342,14 @@ def lift_chart(
     low, high = (end(end(line.y) for line in lines) for end in (min, max))
     peak = float(solution.disk.r[np.argmax(lines[-1].y)])
     scale = Axis("kN/m per blade", held_range(previous, min(0.0, low), high))
-    return Chart("Lift", _ALONG, scale, tuple(lines), value=f"peak at {peak:.2f} R", note="Mean over azimuth.")
+    return Chart(
+        "Lift",
+        _ALONG,
+        scale,
+        tuple(lines),
+        value=f"peak at {peak:.2f} R",
+        note="Mean over azimuth.",
+    )
 
 
 def lift_per_metre(solution: Solution) -> Array:

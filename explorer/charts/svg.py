@@ -23,12 +23,24 @@ Point = tuple[float, float]
 
 BODY = "var(--mantine-color-body)"
 """The page's ground, for the halo that keeps words readable on lines."""
-_HALO: dict[str, Attribute] = {"stroke": BODY, "stroke_width": 3, "paint_order": "stroke", "stroke_linejoin": "round"}
+_HALO: dict[str, Attribute] = {
+    "stroke": BODY,
+    "stroke_width": 3,
+    "paint_order": "stroke",
+    "stroke_linejoin": "round",
+}
 
 
 def drawing(width: float, height: float, label: str, *content: Content) -> Markup:
     """A drawing as wide as its place, with the words of its label for who does not see it."""
-    return tag("svg", *content, viewBox=f"0 0 {width:g} {height:g}", width="100%", role="img", aria_label=label)
+    return tag(
+        "svg",
+        *content,
+        viewBox=f"0 0 {width:g} {height:g}",
+        width="100%",
+        role="img",
+        aria_label=label,
+    )
 
 
 def line(
@@ -41,7 +53,11 @@ def line(
     opacity: float | None = None,
 ) -> Markup:
     (x1, y1), (x2, y2) = start, end
-    look: dict[str, Attribute] = {"stroke_width": width, "stroke_dasharray": dashes, "opacity": opacity}
+    look: dict[str, Attribute] = {
+        "stroke_width": width,
+        "stroke_dasharray": dashes,
+        "opacity": opacity,
+    }
     return tag("line", x1=x1, y1=y1, x2=x2, y2=y2, stroke=colour, **look)
 
 
@@ -63,7 +79,12 @@ def arrow(start: Point, end: Point, colour: str = "currentColor", width: float =
 
 
 def arc(
-    centre: Point, radius: float, start: float, sweep: float, colour: str = "currentColor", width: float = 1.0
+    centre: Point,
+    radius: float,
+    start: float,
+    sweep: float,
+    colour: str = "currentColor",
+    width: float = 1.0,
 ) -> Markup:
     """Part of a circle from an angle [rad, clockwise from +x] on by `sweep`, with a small head at its end."""
     end = start + sweep
@@ -95,7 +116,9 @@ def words(
     """Text with a halo, so that it reads on whatever it crosses; `low` is its subscript."""
     subscript = tag("tspan", low, font_size=10, dy=2.5) if low else None
     look: dict[str, Attribute] = {"font_size": 12, "font_weight": weight, "opacity": opacity}
-    return tag("text", text, subscript, x=at[0], y=at[1], text_anchor=anchor, fill=colour, **look, **_HALO)
+    return tag(
+        "text", text, subscript, x=at[0], y=at[1], text_anchor=anchor, fill=colour, **look, **_HALO
+    )
 
 
 def spread_heights(wanted: list[float], apart: float) -> list[float]:
@@ -136,7 +159,12 @@ _GRADIENT_STOPS = 25
 
 
 def disk_drawing(
-    solution: Solution, field: Field, colour_range: Range, pixels: int = SIZE, letters: float = 9.0, units: Units = SI
+    solution: Solution,
+    field: Field,
+    colour_range: Range,
+    pixels: int = SIZE,
+    letters: float = 9.0,
+    units: Units = SI,
 ) -> Markup:
     """The inside of an SVG that spans −HALF_EDGE…HALF_EDGE: nose up, advancing side right.
 
@@ -167,7 +195,9 @@ def _ticks() -> str:
 def _labels(size: float) -> Markup:
     """Four azimuths, and the sense of rotation outside the rim between ψ 22° and 51°."""
     (x, y), (x_end, y_end) = _at(22.0, 109.0), _at(45.0, 109.0)
-    head = " ".join(f"{a:.2f},{b:.2f}" for a, b in (_at(45.0, 105.6), _at(51.0, 109.0), _at(45.0, 112.4)))
+    head = " ".join(
+        f"{a:.2f},{b:.2f}" for a, b in (_at(45.0, 105.6), _at(51.0, 109.0), _at(45.0, 112.4))
+    )
     arc = f"M{x:.2f},{y:.2f}A109,109 0 0 0 {x_end:.2f},{y_end:.2f}"
     return group(
         text(0, 107 + size, "ψ = 0°", size, anchor="middle"),
@@ -193,7 +223,9 @@ def _flight(solution: Solution, size: float, units: Units) -> Markup:
     return arrow + text(7, -124.5 + 0.35 * size, units.speed[0].text(speed), size)
 
 
-def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size: float = 9.0) -> Markup:
+def bar_drawing(
+    field: Field, colour_range: Range, wide: float, name: str, size: float = 9.0
+) -> Markup:
     """A colour bar `wide` across with its label above and its numbers below: 4 × `size` high. `name`: unique."""
     stops = [
         tag("stop", offset=f"{k / (_GRADIENT_STOPS - 1):.4f}", stop_color=css(colour))
@@ -202,10 +234,14 @@ def bar_drawing(field: Field, colour_range: Range, wide: float, name: str, size:
     scale: list[Markup] = []
     for percent, word in bar_ticks(*colour_range):
         x = 0.01 * wide * percent
-        scale.append(tag("path", d=f"M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}", stroke="currentColor"))
+        scale.append(
+            tag("path", d=f"M{x:.1f},{2.5 * size:.1f}v{0.35 * size:.1f}", stroke="currentColor")
+        )
         scale.append(text(x, 3.75 * size, word, 0.92 * size, anchor="middle"))
     bar = tag("rect", y=1.5 * size, width=wide, height=size, rx=1, fill=f"url(#{name})")
-    return group(tag("linearGradient", stops, id=name), text(0, size, field.label, size), bar, scale)
+    return group(
+        tag("linearGradient", stops, id=name), text(0, size, field.label, size), bar, scale
+    )
 
 
 def key_marks(solution: Solution) -> list[tuple[str, Rgb, bool]]:
@@ -223,7 +259,16 @@ def key_marks(solution: Solution) -> list[tuple[str, Rgb, bool]]:
 def key_entries(solution: Solution) -> list[tuple[str, Markup]]:
     """Key of the marked regions: title, and a swatch 14 × 8 as the inside of an SVG."""
     return [
-        (title, tag("path", d="M0,4h14", stroke=css(ink), stroke_width=3, stroke_dasharray="4 3" if dashed else None))
+        (
+            title,
+            tag(
+                "path",
+                d="M0,4h14",
+                stroke=css(ink),
+                stroke_width=3,
+                stroke_dasharray="4 3" if dashed else None,
+            ),
+        )
         for title, ink, dashed in key_marks(solution)
     ]
 

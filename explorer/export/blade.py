@@ -34,7 +34,9 @@ def blade_mesh(design: Design) -> trimesh.Trimesh:
     places = tuple(sorted({*kinks(design.twist), *active}))
     shape = blade_shape(design.rotor, LoftDetail(POINTS, STATIONS, places))
     hinge = design.rotor.blade.flap_hinge * design.rotor.radius
-    return trimesh.Trimesh(blade_vertices(shape, design.twist) + np.array([hinge, 0.0, 0.0]), shape.faces)
+    return trimesh.Trimesh(
+        blade_vertices(shape, design.twist) + np.array([hinge, 0.0, 0.0]), shape.faces
+    )
 
 
 def blade_stl(design: Design) -> bytes:
@@ -76,6 +78,10 @@ def _parser() -> argparse.ArgumentParser:
         description="Write one blade as STL in metres, with its twist as built.",
         examples=(("The blade of a UH-60A", "--out cad"),),
     )
-    parser.add_argument("--design", metavar="FILE", help="design file (default: the UH-60A at µ 0.2)")
-    parser.add_argument("--out", default=".", metavar="DIR", help="folder to write into (default: this one)")
+    parser.add_argument(
+        "--design", metavar="FILE", help="design file (default: the UH-60A at µ 0.2)"
+    )
+    parser.add_argument(
+        "--out", default=".", metavar="DIR", help="folder to write into (default: this one)"
+    )
     return parser

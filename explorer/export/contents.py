@@ -59,7 +59,9 @@ class DesignReport:
             raise ValueError("There is no design to report on: wait for the first solution.")
         for entry in self.all:
             if not entry.solution.converged:
-                raise ValueError(f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}")
+                raise ValueError(
+                    f"{entry.title} is not trimmed, so it cannot be reported: {entry.solution.message}"
+                )
 
     @property
     def units(self) -> Units:
@@ -68,14 +70,21 @@ class DesignReport:
 
     def colour_range(self, shown: Field) -> Range:
         """The colour range of a field, the same for all designs."""
-        return self.ranges.get(shown.title) or self._fitted.get(shown.title, (shown.low, shown.high))
+        return self.ranges.get(shown.title) or self._fitted.get(
+            shown.title, (shown.low, shown.high)
+        )
 
     @cached_property
     def _fitted(self) -> dict[str, Range]:
         """Colour ranges that cover all entries, so that their pictures can be compared."""
         shown = [FIELDS[name] for name in _USUAL if not FIELDS[name].void_in_reverse_flow]
-        values = [[field_values(entry.solution, one).ravel() for entry in self.entries] for one in shown]
-        return {one.title: fitted_range(one, np.concatenate(each)) for one, each in zip(shown, values, strict=True)}
+        values = [
+            [field_values(entry.solution, one).ravel() for entry in self.entries] for one in shown
+        ]
+        return {
+            one.title: fitted_range(one, np.concatenate(each))
+            for one, each in zip(shown, values, strict=True)
+        }
 
     def comparable(self, entry: ReportEntry) -> bool:
         """Whether it has the reference's flight condition, so that the blade explains a difference of power."""
@@ -101,7 +110,10 @@ class DesignReport:
     @property
     def all(self) -> tuple[ReportEntry, ...]:
         """All designs, the reference last where it is none of them."""
-        return (*self.entries, *([] if any(map(self.is_reference, self.entries)) else [self.reference]))
+        return (
+            *self.entries,
+            *([] if any(map(self.is_reference, self.entries)) else [self.reference]),
+        )
 
     @property
     def shown(self) -> tuple[ReportEntry, ...]:
@@ -115,14 +127,18 @@ def on_board(driven: ActuatedBlade, units: Units) -> tuple[str, str, str]:
     mass, here = mass_parts(driven.installed)["in all"], driven.here
     if here is None:
         return "", f"with {mass} on board", ""
-    against = f"with {mass} on board, compared with the {against_words(driven, driven.question.against)}"
+    against = (
+        f"with {mass} on board, compared with the {against_words(driven, driven.question.against)}"
+    )
     words = needs_words(-here.power, here.band, units, driven.sourced)
     return words, against, {"loss": "more", "gain": "less", "": ""}[here.kind]
 
 
 def colours_of(report: DesignReport) -> list[str]:
     """The colour of each entry; grey for the reference."""
-    return [*(COLOURS[k % len(COLOURS)] for k in range(len(report.entries))), BASELINE][: len(report.all)]
+    return [*(COLOURS[k % len(COLOURS)] for k in range(len(report.entries))), BASELINE][
+        : len(report.all)
+    ]
 
 
 def fields_of(report: DesignReport) -> list[Field]:

@@ -21,7 +21,14 @@ FRAME_MS = 80
 """Of each picture."""
 _STRIP = 84
 """[px] below the scene, for words and bar."""
-_LIGHT = ((252, 253, 255), (205, 221, 246), (190, 198, 210), (228, 233, 240), (24, 33, 47), (224, 62, 40))
+_LIGHT = (
+    (252, 253, 255),
+    (205, 221, 246),
+    (190, 198, 210),
+    (228, 233, 240),
+    (24, 33, 47),
+    (224, 62, 40),
+)
 _DARK = ((17, 24, 36), (38, 56, 92), (44, 52, 66), (24, 31, 43), (233, 238, 245), (255, 107, 84))
 """Sky above and at the horizon, ground there and below, ink, and the bar."""
 
@@ -33,23 +40,37 @@ def horizon(camera: Camera) -> float:
 
 
 def gif(
-    frames: Sequence[NDArray[np.uint8]], ride: RidePart, azimuths: Sequence[int], horizons: Sequence[float], dark: bool
+    frames: Sequence[NDArray[np.uint8]],
+    ride: RidePart,
+    azimuths: Sequence[int],
+    horizons: Sequence[float],
+    dark: bool,
 ) -> bytes:
     """A GIF that repeats, a frame for each of `azimuths` (columns of `ride`), from scenes (HEIGHT, WIDTH, 4)."""
     drawn = [_frame(*each, ride, dark) for each in zip(frames, azimuths, horizons, strict=True)]
-    first, *rest = (one.quantize(128, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE) for one in drawn)
+    first, *rest = (
+        one.quantize(128, Image.Quantize.MEDIANCUT, dither=Image.Dither.NONE) for one in drawn
+    )
     out = io.BytesIO()
     first.save(out, "GIF", save_all=True, append_images=rest, duration=FRAME_MS, loop=0, disposal=1)
     return out.getvalue()
 
 
-def _frame(scene: NDArray[np.uint8], k: int, horizon: float, ride: RidePart, dark: bool) -> Image.Image:
+def _frame(
+    scene: NDArray[np.uint8], k: int, horizon: float, ride: RidePart, dark: bool
+) -> Image.Image:
     above, at, below, low, ink, bar = _DARK if dark else _LIGHT
     rows = (np.arange(HEIGHT) / HEIGHT)[:, None, None]
     sky, end = np.clip(rows / max(horizon, 1e-3), 0.0, 1.0), max(1.0 - horizon, 1e-3)
     ground = np.clip((rows - horizon) / end, 0.0, 1.0)
-    mixed = np.where(rows < horizon, above + sky * np.subtract(at, above), below + ground * np.subtract(low, below))
-    picture = Image.fromarray(np.broadcast_to(mixed, (HEIGHT, WIDTH, 3)).astype(np.uint8)).convert("RGBA")
+    mixed = np.where(
+        rows < horizon,
+        above + sky * np.subtract(at, above),
+        below + ground * np.subtract(low, below),
+    )
+    picture = Image.fromarray(np.broadcast_to(mixed, (HEIGHT, WIDTH, 3)).astype(np.uint8)).convert(
+        "RGBA"
+    )
     picture.alpha_composite(Image.fromarray(scene))
     draw = ImageDraw.Draw(picture)
     draw.rectangle((0, HEIGHT - _STRIP, WIDTH, HEIGHT), above)

@@ -89,7 +89,12 @@ class Family:
 
     def scaled(self, numbers: Sequence[float]) -> Array:
         """−1…1 over the sliders."""
-        return np.array([(number - one.centre) / one.half for number, one in zip(numbers, self.handles, strict=True)])
+        return np.array(
+            [
+                (number - one.centre) / one.half
+                for number, one in zip(numbers, self.handles, strict=True)
+            ]
+        )
 
     def numbers(self, x: Array) -> list[float]:
         """Positions of the sliders, in their units, from scaled values −1…1."""
@@ -150,9 +155,15 @@ class Fitted:
         """The twist of least power within the sliders, as their numbers, and its trim."""
         n, total = self.x.shape[1], self.power["total"]
         starts = (self.family.here, np.zeros(n), self.x[np.argmin(_totals(self.trims))])
-        found = [minimize(lambda x: float(self.at(total, x[None])[0]), x0, bounds=[(-1.0, 1.0)] * n) for x0 in starts]
+        found = [
+            minimize(lambda x: float(self.at(total, x[None])[0]), x0, bounds=[(-1.0, 1.0)] * n)
+            for x0 in starts
+        ]
         x = min(found, key=lambda one: one.fun).x
-        values = [round(v, one.form.digits) for v, one in zip(self.family.numbers(x), self.family.handles, strict=True)]
+        values = [
+            round(v, one.form.digits)
+            for v, one in zip(self.family.numbers(x), self.family.handles, strict=True)
+        ]
         return values, solve(self.family.design(self.family.scaled(values)), self.solution)
 
     @cached_property
@@ -161,22 +172,30 @@ class Fitted:
         (terms, inputs) each."""
         shared = analysed(self.solution)
         n = math.ceil(_DOUBTS_PER_TERM * len(_exponents(self.x.shape[1], 2)))
-        rows = [{row.name: row for row in doubt(trim, shared).rows} for trim in (*self.trims[:n], shared)]
+        rows = [
+            {row.name: row for row in doubt(trim, shared).rows}
+            for trim in (*self.trims[:n], shared)
+        ]
         names = list(dict.fromkeys(name for each in rows for name in each))
         power, change = (
-            np.array([[getattr(row.get(name), kind, None) or 0.0 for name in names] for row in rows])
+            np.array(
+                [[getattr(row.get(name), kind, None) or 0.0 for name in names] for row in rows]
+            )
             for kind in ("power", "change")
         )
         terms = _terms(np.vstack((self.x[:n], self.family.here)), _exponents(self.x.shape[1], 2))
         of_power, of_change = (_solved(terms, values) for values in (power, change))
-        of_change[0] -= self.at(of_change, self.family.here[None])[0]  # No change where nothing is changed.
+        # No change where nothing is changed.
+        of_change[0] -= self.at(of_change, self.family.here[None])[0]
         return of_power, of_change
 
 
 def fitted(solution: Solution) -> Fitted:
     """The polynomials about a trimmed design; ValueError with one sentence where there are none."""
     if not solution.converged:
-        raise ValueError(f"The design is not trimmed, so no page can be made from it: {solution.message}")
+        raise ValueError(
+            f"The design is not trimmed, so no page can be made from it: {solution.message}"
+        )
     design = solution.design
     if design.models.trim == "free-rotor":
         raise ValueError("A free rotor takes no power, so no twist lowers it: choose another trim.")
@@ -196,18 +215,25 @@ def fitted(solution: Solution) -> Fitted:
             return made
     off = f"near its twist the power would be {error / 1e3:.1f} kW off"
     why = "with twists near its own it does not trim" if math.isinf(error) else off
-    raise ValueError(f"No page can be made from this design: {why}. Choose a design farther from its limits.")
+    raise ValueError(
+        f"No page can be made from this design: {why}. Choose a design farther from its limits."
+    )
 
 
 def _of_law(design: Design, share: float) -> Family:
     """share: of the reach of each slider."""
     inputs = inputs_of(design)
-    law = replace(LAWS[inputs.law], base=design.rotor.builtin_twist if inputs.law == "builtin" else None)
+    law = replace(
+        LAWS[inputs.law], base=design.rotor.builtin_twist if inputs.law == "builtin" else None
+    )
     handles = list[Handle]()
     for name, one in zip(law.inputs, law.parameters, strict=True):
         form = ROWS[name].slider
         assert form is not None
-        reach, ends = share * _REACH[one.shown_unit if one.angular else ""], limits(name, inputs.aircraft)
+        reach, ends = (
+            share * _REACH[one.shown_unit if one.angular else ""],
+            limits(name, inputs.aircraft),
+        )
         handles.append(_handle(name, form, getattr(inputs, name), reach, ends))
 
     def values(numbers: Sequence[float]) -> list[float]:
@@ -233,7 +259,9 @@ def _of_drive(design: Design, share: float) -> Family:
     installed = inputs.installed(bare.rotor)
     actuator = installed.actuator
     sign = -1.0 if inputs.crossed and "crossed" in actuator.settings else 1.0
-    shapes = np.array([np.interp(STATIONS, installed.r, each) for each in installed.shapes_in(bare)])
+    shapes = np.array(
+        [np.interp(STATIONS, installed.r, each) for each in installed.shapes_in(bare)]
+    )
     shapes *= sign / actuator.drive_swing
     low, high = actuator.drive_range
     step = 10.0 ** math.floor(math.log10(0.01 * (high - low)))
@@ -253,10 +281,14 @@ def _of_drive(design: Design, share: float) -> Family:
     )
 
 
-def _handle(name: str, form: Slider, value: float, reach: float, ends: tuple[float, float]) -> Handle:
+def _handle(
+    name: str, form: Slider, value: float, reach: float, ends: tuple[float, float]
+) -> Handle:
     """A slider that goes as far as its reach and its ends let it, in whole steps."""
     room = value - ends[0], ends[1] - value
-    down, up = (math.floor(min(reach, max(each, 0.0)) / form.step + 1e-9) * form.step for each in room)
+    down, up = (
+        math.floor(min(reach, max(each, 0.0)) / form.step + 1e-9) * form.step for each in room
+    )
     return Handle(name, replace(form, low=round(value - down, 9), high=round(value + up, 9)), value)
 
 
@@ -268,32 +300,55 @@ def _made(family: Family, solution: Solution) -> Fitted | None:
     # Denser towards the ends, where a polynomial errs most.
     between = qmc.Halton(n, scramble=False).random(max(count - len(corners), n) + 1)[1:]
     fit_x = np.vstack((np.sin(math.pi * (between - 0.5)), _NEAR_CORNERS * corners))
-    tested_x = np.vstack((corners, np.clip(np.random.default_rng(1).uniform(-1.2, 1.2, (_DRAWN, n)), -1.0, 1.0)))
+    tested_x = np.vstack(
+        (corners, np.clip(np.random.default_rng(1).uniform(-1.2, 1.2, (_DRAWN, n)), -1.0, 1.0))
+    )
     trims = list[Analysis]()
     for some in (corners, fit_x, tested_x[len(corners) :]):
-        found = analyse_many([family.design(x) for x in some], [solution] * len(some), SolverOptions(remedy=False))
+        found = analyse_many(
+            [family.design(x) for x in some], [solution] * len(some), SolverOptions(remedy=False)
+        )
         if not all(trim.solution.converged for trim in found):
             return None
         trims += found
     m = len(corners)
     fit_trims, tested = trims[m : m + len(fit_x)], trims[:m] + trims[m + len(fit_x) :]
-    return Fitted(family, solution, fit_x, fit_trims, tested_x, tested, _power(family, solution, fit_x, fit_trims))
+    return Fitted(
+        family,
+        solution,
+        fit_x,
+        fit_trims,
+        tested_x,
+        tested,
+        _power(family, solution, fit_x, fit_trims),
+    )
 
 
-def _power(family: Family, solution: Solution, x: Array, trims: Sequence[Analysis]) -> dict[str, Array]:
+def _power(
+    family: Family, solution: Solution, x: Array, trims: Sequence[Analysis]
+) -> dict[str, Array]:
     """Coefficients of each part, exact at the design itself; profile power, with what dampers take, is what is left of
     the total."""
     n = x.shape[1]
     quartic = _exponents(n, 4)
-    slopes = [_terms(x, np.maximum(quartic - row, 0)) * quartic[:, k] for k, row in enumerate(np.eye(n, dtype=int))]
+    slopes = [
+        _terms(x, np.maximum(quartic - row, 0)) * quartic[:, k]
+        for k, row in enumerate(np.eye(n, dtype=int))
+    ]
     here, exact = _HELD * _terms(family.here[None], quartic), solution.power
     rows = np.vstack((_terms(x, quartic), *slopes, here))
-    along = [family.slopes(at, trim.linear.problem.disk.r) for at, trim in zip(x, trims, strict=True)]
+    along = [
+        family.slopes(at, trim.linear.problem.disk.r) for at, trim in zip(x, trims, strict=True)
+    ]
     found = dict[str, Array]()
     for name in ("induced", "total"):
         values = [getattr(trim.solution.power, name) for trim in trims]
-        by = [power_gradient(trim, name).along(each) for trim, each in zip(trims, along, strict=True)]
-        found[name] = _solved(rows, np.concatenate((values, np.array(by).T.ravel(), [_HELD * getattr(exact, name)])))
+        by = [
+            power_gradient(trim, name).along(each) for trim, each in zip(trims, along, strict=True)
+        ]
+        found[name] = _solved(
+            rows, np.concatenate((values, np.array(by).T.ravel(), [_HELD * getattr(exact, name)]))
+        )
     few = _terms(x, _exponents(n, 2))
     for name in ("parasite", "climb"):
         quadratic = _solved(few, [getattr(trim.solution.power, name) for trim in trims])
@@ -320,8 +375,12 @@ def _totals(trims: Sequence[Analysis]) -> Array:
 
 def _exponents(n: int, degree: int) -> Array:
     """Of all terms up to a degree, those of low degree first, (terms, n)."""
-    orders = (itertools.combinations_with_replacement(range(n), order) for order in range(1, degree + 1))
-    return np.array([np.zeros(n, int), *(np.bincount(ks, minlength=n) for ks in itertools.chain(*orders))])
+    orders = (
+        itertools.combinations_with_replacement(range(n), order) for order in range(1, degree + 1)
+    )
+    return np.array(
+        [np.zeros(n, int), *(np.bincount(ks, minlength=n) for ks in itertools.chain(*orders))]
+    )
 
 
 def _terms(x: Array, exponents: Array) -> Array:

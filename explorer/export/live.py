@@ -47,7 +47,11 @@ def live_html(solution: Solution, units: Units = SI) -> str:
     design = solution.design
     drawn = [_Drawn(made, FIELDS[name]) for name in _FIELDS if FIELDS[name].exists(solution)]
     content = group(
-        tag("section.live", tag("div.seen", _rotor(made, drawn, units)), tag("div.held", _sliders(made), _card(made))),
+        tag(
+            "section.live",
+            tag("div.seen", _rotor(made, drawn, units)),
+            tag("div.held", _sliders(made), _card(made)),
+        ),
         tag("p.note", _accuracy(made, drawn[0], units)),
         web.json_block("model", _model(made, drawn, units)),
         tag(
@@ -57,9 +61,13 @@ def live_html(solution: Solution, units: Units = SI) -> str:
             tag("pre", json.dumps(design.to_dict(), indent=1, ensure_ascii=False)),
         ),
     )
-    validity = "Numbers here come from polynomials through trimmed designs, with the error stated above."
+    validity = (
+        "Numbers here come from polynomials through trimmed designs, with the error stated above."
+    )
     title, line, when = title_words(design), sentence(solution, units), datetime.now().astimezone()
-    return document_html(title, solution, line, content, validity, when, ("report.css", "live.css"), _SCRIPTS)
+    return document_html(
+        title, solution, line, content, validity, when, ("report.css", "live.css"), _SCRIPTS
+    )
 
 
 class _Drawn:
@@ -68,9 +76,12 @@ class _Drawn:
     def __init__(self, made: Fitted, field: Field) -> None:
         self.field = field
         values = field_values(made.solution, field)
-        self.range = (field.low, field.high) if field.void_in_reverse_flow else fitted_range(field, values)
+        self.range = (
+            (field.low, field.high) if field.void_in_reverse_flow else fitted_range(field, values)
+        )
         low, high = self.range
-        width = high - low  # What lies far beyond the colours, as α in reverse flow, is not followed.
+        # What lies far beyond the colours, as α in reverse flow, is not followed.
+        width = high - low
         self.table = made.fit(lambda one: np.clip(_sample(one, field), low - width, high + width))
 
     def error(self, made: Fitted) -> float:
@@ -79,7 +90,11 @@ class _Drawn:
         for x, trim in zip(made.tested_x, made.tested, strict=True):
             solution = trim.solution
             inside = DrawnSolution(solution).flow(_grid(solution)).u_t > CLEAR_OF_REVERSE
-            squares.append(np.mean((made.at(self.table, x[None])[0] - _sample(solution, self.field))[inside] ** 2))
+            squares.append(
+                np.mean(
+                    (made.at(self.table, x[None])[0] - _sample(solution, self.field))[inside] ** 2
+                )
+            )
         return math.sqrt(float(np.mean(squares)))
 
 
@@ -93,15 +108,29 @@ def _sample(solution: Solution, field: Field) -> Array:
 
 def _rotor(made: Fitted, drawn: list[_Drawn], units: Units) -> Markup:
     """Disk, scale and inset."""
-    tabs = [tag("button", one.field.title, type="button", data_field=k) for k, one in enumerate(drawn)]
+    tabs = [
+        tag("button", one.field.title, type="button", data_field=k) for k, one in enumerate(drawn)
+    ]
     lines = outline(reverse_flow_segments(made.solution))
-    reverse = "".join("M" + "L".join(f"{100 * x:.1f} {100 * y:.1f}" for x, y in line) for line in lines)
+    reverse = "".join(
+        "M" + "L".join(f"{100 * x:.1f} {100 * y:.1f}" for x, y in line) for line in lines
+    )
     marks = tag("path.reverse", d=reverse) + tag("path.stall")
     box = f"{-HALF_EDGE:g} {-HALF_EDGE:g} {2 * HALF_EDGE:g} {2 * HALF_EDGE:g}"
-    over = tag("svg", marks, disk_marks(made.solution, 9.0, units), viewBox=box, role="img", aria_label="The disk")
+    over = tag(
+        "svg",
+        marks,
+        disk_marks(made.solution, 9.0, units),
+        viewBox=box,
+        role="img",
+        aria_label="The disk",
+    )
     regions = (("stall", "stall"), *([("reverse", "reverse flow")] if lines else []))
     key = [tag("span", tag("i", class_=name), title) for name, title in regions]
-    bars = [tag("div", bar(one.field, one.range, f"bar-{k}"), data_scale=k) for k, one in enumerate(drawn)]
+    bars = [
+        tag("div", bar(one.field, one.range, f"bar-{k}"), data_scale=k)
+        for k, one in enumerate(drawn)
+    ]
     return group(
         tag("div.tabs", tabs),
         tag("figure.plan", tag("canvas", aria_hidden="true"), over),
@@ -120,8 +149,20 @@ def _sliders(made: Fitted) -> Markup:
                 "div.slider",
                 tag("label", label, for_=id),
                 tag("output", for_=id, data_unit=unit.rstrip("]")),
-                tag("input", id=id, type="range", min=form.low, max=form.high, step=form.step, value=one.value),
-                tag("small", tag("span", number(form.low, form.digits)), tag("span", number(form.high, form.digits))),
+                tag(
+                    "input",
+                    id=id,
+                    type="range",
+                    min=form.low,
+                    max=form.high,
+                    step=form.step,
+                    value=one.value,
+                ),
+                tag(
+                    "small",
+                    tag("span", number(form.low, form.digits)),
+                    tag("span", number(form.high, form.digits)),
+                ),
             )
         )
     buttons = (
@@ -134,7 +175,13 @@ def _sliders(made: Fitted) -> Markup:
 def _card(made: Fitted) -> Markup:
     titles = part_titles(made.solution.design)
     rows = [
-        tag("tr", tag("td", tag("i", style=f"background:{PARTS[name]}"), title), tag("td"), tag("td"), data_part=name)
+        tag(
+            "tr",
+            tag("td", tag("i", style=f"background:{PARTS[name]}"), title),
+            tag("td"),
+            tag("td"),
+            data_part=name,
+        )
         for name, title in titles.items()
     ]
     bars = [tag("i", style=f"background:{PARTS[name]}", data_bar=name) for name in titles]
@@ -156,12 +203,22 @@ def _line(made: Fitted, units: Units) -> list[tuple[str, int | None]]:
     if design.rotor.blade.carried is not None:
         drives = [(", " if k else f" with {made.family.title} at ", k) for k in range(len(handles))]
         unit = handles[0].form.label.partition("[")[2].rstrip("]")
-        return [(flight, None), *(piece for text, k in drives for piece in ((text, None), ("", k))), (f" {unit}", None)]
+        return [
+            (flight, None),
+            *(piece for text, k in drives for piece in ((text, None), ("", k))),
+            (f" {unit}", None),
+        ]
     names = [one.name for one in handles]
     if inputs.law == "builtin":  # Its changes are named although they are zero.
         inputs = replace(inputs, **{names[0]: 1.0})
-    pieces = [(piece.text, piece.control.name if piece.control else "") for piece in twist_pieces(inputs, design)]
-    return [(flight, None), *((text, names.index(name) if name in names else None) for text, name in pieces)]
+    pieces = [
+        (piece.text, piece.control.name if piece.control else "")
+        for piece in twist_pieces(inputs, design)
+    ]
+    return [
+        (flight, None),
+        *((text, names.index(name) if name in names else None) for text, name in pieces),
+    ]
 
 
 def _accuracy(made: Fitted, angle: _Drawn, units: Units) -> Markup:
@@ -176,7 +233,9 @@ def _accuracy(made: Fitted, angle: _Drawn, units: Units) -> Markup:
         f"{number(angle.error(made), 2)}° (root mean square). The sliders end before this exceeds "
         f"{100.0 * TOLERANCE:g} % of power. ± is the uncertainty of the model; that of a change holds the mean square "
         "of this error, too.",
-        " The power of the drive is not included." if made.solution.design.rotor.blade.carried is not None else "",
+        " The power of the drive is not included."
+        if made.solution.design.rotor.blade.carried is not None
+        else "",
     )
 
 
@@ -230,9 +289,13 @@ def _inset(made: Fitted) -> dict[str, Any]:
         bent = law(r) - (family.base(r) if family.base else 0.0)
         return np.degrees(bent) if family.breaks else 0.0 * bent
 
-    of = made.fit(lambda one: np.degrees(flown_twist(one, psi)(places)) - pieces(one.design.twist, places))
+    of = made.fit(
+        lambda one: np.degrees(flown_twist(one, psi)(places)) - pieces(one.design.twist, places)
+    )
     ends = [[0.0, *(family.numbers(x)[k] for k in family.breaks), 1.0] for x in made.x]
-    knots = [pieces(trim.solution.design.twist, r) for r, trim in zip(ends, made.trims, strict=True)]
+    knots = [
+        pieces(trim.solution.design.twist, r) for r, trim in zip(ends, made.trims, strict=True)
+    ]
     return {
         **asdict(inset_sections(rotor, twist, twist, _VIEW.exaggeration)),
         "name": named, "name_hint": "", "overlay_name": "as shared", "overlay_hint": "",

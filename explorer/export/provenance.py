@@ -33,7 +33,13 @@ from rotor.trim import DiskFields
 PROGRAM = "rotor explorer"
 LONGEST_NAME = 60
 """Characters of a file name."""
-_SHOWN = {"rotor-explorer": PROGRAM, "viser": "viser", "numpy": "NumPy", "scipy": "SciPy", "numba": "Numba"}
+_SHOWN = {
+    "rotor-explorer": PROGRAM,
+    "viser": "viser",
+    "numpy": "NumPy",
+    "scipy": "SciPy",
+    "numba": "Numba",
+}
 
 
 @cache
@@ -47,7 +53,9 @@ def versions() -> dict[str, str]:
             numbers[shown] = "unknown"
     at = commit()
     if at:
-        numbers[PROGRAM] += f" (commit {at.removesuffix('+')}{', changed' if at.endswith('+') else ''})"
+        numbers[PROGRAM] += (
+            f" (commit {at.removesuffix('+')}{', changed' if at.endswith('+') else ''})"
+        )
     numbers["Python"] = platform.python_version()
     return numbers
 
@@ -77,7 +85,9 @@ def document_html(
             "content": content,
             "validity": validity,
             "measured": validated(solution).sentence,
-            "versions": group(tag("tr", tag("td", name), tag("td", text)) for name, text in versions().items()),
+            "versions": group(
+                tag("tr", tag("td", name), tag("td", text)) for name, text in versions().items()
+            ),
             "scripts": web.scripts(*scripts),
         },
     )
@@ -103,10 +113,20 @@ def provenance_lines(solution: Solution) -> list[str]:
         f"{solution.status.value}: {solution.message} Residual {solution.residual:.1e} of weight.",
         f"total power {solution.power.total / 1e3:.6f} kW, main rotor {solution.power.main_rotor / 1e3:.6f} kW",
     ]
-    for what, harmonics in (("root pitch", design.pitch_per_rev), ("active twist", design.active_waves)):
+    for what, harmonics in (
+        ("root pitch", design.pitch_per_rev),
+        ("active twist", design.active_waves),
+    ):
         if harmonics:
-            waves = (f"{each.per_rev}/rev {each.amplitude:g} rad, phase {each.phase:g} rad" for each in harmonics)
-            lines.insert(1, f"added {what}: {', '.join(waves)}" + (" (at rest in hover)" if design.hovering else ""))
+            waves = (
+                f"{each.per_rev}/rev {each.amplitude:g} rad, phase {each.phase:g} rad"
+                for each in harmonics
+            )
+            lines.insert(
+                1,
+                f"added {what}: {', '.join(waves)}"
+                + (" (at rest in hover)" if design.hovering else ""),
+            )
     lines += [f"caveat: {caveat.sentence}" for caveat in solution.caveats]
     lines.append(", ".join(f"{name} {number}" for name, number in versions().items()))
     lines.append("A model, not a measurement.")
@@ -126,7 +146,9 @@ _ANGLES = {"theta", "alpha", "stall_margin", "elastic_twist"}
 """Fields in radians that are written in degrees."""
 
 
-def tables_zip(solution: Solution, reference: Design, curve: PowerCurve, azimuth_deg: float) -> bytes:
+def tables_zip(
+    solution: Solution, reference: Design, curve: PowerCurve, azimuth_deg: float
+) -> bytes:
     """What `disk_csv`, `blade_csv` and `power_csv` give, as one archive."""
     out = io.BytesIO()
     with zipfile.ZipFile(out, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -144,7 +166,9 @@ def disk_csv(solution: Solution) -> bytes:
     for name in _disk_fields(disk):
         values = getattr(disk, name)
         angle = name in _ANGLES
-        columns.append((f"{name} [{'deg' if angle else '-'}]", np.degrees(values) if angle else values))
+        columns.append(
+            (f"{name} [{'deg' if angle else '-'}]", np.degrees(values) if angle else values)
+        )
     columns.append(("thrust per blade [N/m]", disk.dct * design.thrust_per_metre))
     power = disk.r[:, None] * disk.dcq * design.thrust_per_metre * design.rotor.tip_speed
     columns.append(("power per blade [W/m]", power))
@@ -216,5 +240,8 @@ def _disk_fields(disk: DiskFields) -> list[str]:
 def _table(solution: Solution, notes: Sequence[str], columns: Sequence[tuple[str, Array]]) -> bytes:
     heading = "".join(f"# {line}\n" for line in (*provenance_lines(solution), *notes))
     table = np.stack([np.asarray(values, dtype=float).ravel() for _, values in columns], axis=1)
-    rows = ([f"{value + 0.0:.9g}" if math.isfinite(value) else "" for value in row] for row in table.tolist())
+    rows = (
+        [f"{value + 0.0:.9g}" if math.isfinite(value) else "" for value in row]
+        for row in table.tolist()
+    )
     return csv_text([[name for name, _ in columns], *rows], heading).encode("utf-8")

@@ -34,7 +34,10 @@ from rotor.trim.doubt import decimals
 
 
 def report_html(
-    report: DesignReport, stage: EmbeddedViewer | None, curves: PowerCurves | None = None, rotor: bytes | None = None
+    report: DesignReport,
+    stage: EmbeddedViewer | None,
+    curves: PowerCurves | None = None,
+    rotor: bytes | None = None,
 ) -> str:
     """The file's text. `stage`: the 3D scenes of `report.shown`, in their order; `curves`: power already swept;
     `rotor`: the first design as the page drew it, a WebP for paper."""
@@ -71,14 +74,19 @@ def _glance(report: DesignReport) -> Markup:
     """A card for each design: power, its change, its parts."""
     cards = [_card(report, k, colour) for k, colour in enumerate(colours_of(report))]
     titles = part_titles(*(entry.solution.design for entry in report.all))
-    parts = [tag("span", tag("i", style=f"background:{PARTS[name]}"), title) for name, title in titles.items()]
+    parts = [
+        tag("span", tag("i", style=f"background:{PARTS[name]}"), title)
+        for name, title in titles.items()
+    ]
     return tag("section.glance", tag("div.cards", cards), tag("p.parts", parts))
 
 
 def _card(report: DesignReport, k: int, colour: str) -> Markup:
     entry = report.all[k]
     power, design = entry.solution.power, entry.solution.design
-    largest = max(sum(max(getattr(other.solution.power, name), 0.0) for name in PARTS) for other in report.all)
+    largest = max(
+        sum(max(getattr(other.solution.power, name), 0.0) for name in PARTS) for other in report.all
+    )
     values = {name: max(getattr(power, name), 0.0) for name in PARTS}
     bar = [
         tag("i", style=f"width:{100.0 * value / largest:.3f}%;background:{PARTS[name]}")
@@ -90,12 +98,17 @@ def _card(report: DesignReport, k: int, colour: str) -> Markup:
     small = tag("span.dim", report.units.other_watts(power.total))
     return tag(
         "article.card",
-        tag("h3", tag("a", entry.title, href=f"#design-{k}") if entry in report.shown else entry.title),
+        tag(
+            "h3",
+            tag("a", entry.title, href=f"#design-{k}") if entry in report.shown else entry.title,
+        ),
         tag("div.big", total, small, tables.change_words(report, entry)),
         tag("div.bar", bar),
         tag("div", title_words(design)),
         tag("div.dim", flight_words(design, report.units)),
-        tag("div", on_board(report.driven, report.units)[1]) if k == 0 and report.driven is not None else None,
+        tag("div", on_board(report.driven, report.units)[1])
+        if k == 0 and report.driven is not None
+        else None,
         style=f"--mark:{colour}",
     )
 
@@ -103,7 +116,10 @@ def _card(report: DesignReport, k: int, colour: str) -> Markup:
 def _stage(report: DesignReport, stage: EmbeddedViewer | None) -> Markup:
     if stage is None:
         return Markup()
-    tabs = [tag("button", entry.title, type="button", data_scene=k) for k, entry in enumerate(report.shown)]
+    tabs = [
+        tag("button", entry.title, type="button", data_scene=k)
+        for k, entry in enumerate(report.shown)
+    ]
     hint = tag("span.dim", "Drag to turn, right button to move, wheel to zoom.")
     shown = FIELDS[report.view.field]
     return tag(
@@ -160,7 +176,9 @@ def _run(options: argparse.Namespace) -> int:
     check_suffix(options.out, ".html")
     if options.live:
         if len(options.designs) > 1:
-            raise ValueError(f"--live takes one design, not {len(options.designs)}: make a file of each")
+            raise ValueError(
+                f"--live takes one design, not {len(options.designs)}: make a file of each"
+            )
         html = live_html(solve(load_design(options.designs[0])))
         write_output(options.out, html)
         print(f"{options.out}: {len(html) / 1e3:.0f} kB")
@@ -174,7 +192,9 @@ def _run(options: argparse.Namespace) -> int:
     except ValueError as error:
         print(f"explorer report: {error}", file=sys.stderr)
         return 1
-    stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field]))
+    stage = make_stage(
+        [entry.solution for entry in report.shown], view, report.colour_range(FIELDS[view.field])
+    )
     write_output(options.out, report_html(report, stage))
     print(f"{options.out}: {len(entries)} design{'s' if len(entries) > 1 else ''}")
     return 0
@@ -193,7 +213,11 @@ def _parser() -> argparse.ArgumentParser:
     parser.add_argument("designs", nargs="+", metavar="FILE", help=words)
     words = "a page that travels: the sliders of one design's twist work in the file"
     parser.add_argument("--live", action="store_true", help=words)
-    parser.add_argument("--out", default="report.html", metavar="FILE", help="file to write (default report.html)")
+    parser.add_argument(
+        "--out", default="report.html", metavar="FILE", help="file to write (default report.html)"
+    )
     words = f"field on the 3D disk: {', '.join(FIELDS)}"
-    parser.add_argument("--field", default=ViewState.field, choices=tuple(FIELDS), metavar="NAME", help=words)
+    parser.add_argument(
+        "--field", default=ViewState.field, choices=tuple(FIELDS), metavar="NAME", help=words
+    )
     return parser

@@ -52,16 +52,27 @@ def comparison(report: DesignReport) -> Markup:
 
     designs = [entry.solution.design for entry in report.all]
     head = tag("tr", tag("th"), [tag("th", entry.title) for entry in report.all])
-    width = 170 + round(len(report.all) * min(max(890 / len(report.all), 150), 230))  # [px]; a wider table scrolls.
+    # [px]; a wider table scrolls.
+    width = 170 + round(len(report.all) * min(max(890 / len(report.all), 150), 230))
     rows = [
         _row("Twist", [twist_name(design) for design in designs], "words"),
         _row("Speed", [_speed(design, report.units) for design in designs]),
         _row("Mass, altitude", [_weight(design, report.units) for design in designs]),
-        _row("Model", [_below(inflow_words(d), f"{d.preset}, {physics_words(d)}") for d in designs], "words"),
+        _row(
+            "Model",
+            [_below(inflow_words(d), f"{d.preset}, {physics_words(d)}") for d in designs],
+            "words",
+        ),
         _row(tag("b", "Total power"), compared("total"), "total"),
-        *(_row(_named(name, title), compared(name)) for name, title in part_titles(*designs).items()),
+        *(
+            _row(_named(name, title), compared(name))
+            for name, title in part_titles(*designs).items()
+        ),
         _row("Main rotor", compared("main_rotor")),
-        _row("Least induced, any circulation", [_least_induced(entry.solution, report.units) for entry in report.all]),
+        _row(
+            "Least induced, any circulation",
+            [_least_induced(entry.solution, report.units) for entry in report.all],
+        ),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),
         _row("Stalled area", [f"{number(100 * e.solution.stalled_area, 1)} %" for e in report.all]),
@@ -69,9 +80,14 @@ def comparison(report: DesignReport) -> Markup:
     return tag(
         "section.comparison",
         tag("h2", "Side by side" if len(report.all) > 1 else "Power"),
-        tag("div.wide", tag("table", tag("thead", head), tag("tbody", rows), style=f"--wide:{width}px")),
+        tag(
+            "div.wide",
+            tag("table", tag("thead", head), tag("tbody", rows), style=f"--wide:{width}px"),
+        ),
         tag("p.note", note) if elsewhere else None,
-        tag("p.note", f"{report.entries[0].title}: without the mass of its actuator.") if report.driven else None,
+        tag("p.note", f"{report.entries[0].title}: without the mass of its actuator.")
+        if report.driven
+        else None,
     )
 
 
@@ -101,7 +117,10 @@ def trim(solution: Solution) -> Markup:
         ("CT, CT/σ", f"{number(solution.ct, 5)}, {number(solution.ct_over_sigma, 4)}"),
         ("CP", number(solution.cp, 6)),
         ("κ = Pi/(CT·λ0)", number(solution.induced_power_factor, 3)),
-        ("Figure of merit" if solution.design.hovering else "Rotor L/De", _efficiency_number(solution)),
+        (
+            "Figure of merit" if solution.design.hovering else "Rotor L/De",
+            _efficiency_number(solution),
+        ),
         ("Reverse flow", f"{number(100 * solution.reverse_flow_area, 1)} % of the disk"),
         ("Stalled", f"{stalled[0]} % of the disk, {stalled[1]} % of the thrust"),
     ]
@@ -120,13 +139,21 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
         if rest := named[MOST_ROWS:]:
             sizes.append((f"{len(rest)} smaller causes", math.hypot(*(size for _, size in rest))))
         # No line ends between a number and its unit.
-        bands = [f"± {unit.text(size, decimals(unit.of(size)))}".replace(" ", "\u00a0") for _, size in sizes]
+        bands = [
+            f"± {unit.text(size, decimals(unit.of(size)))}".replace(" ", "\u00a0")
+            for _, size in sizes
+        ]
         return _table(title, zip([name for name, _ in sizes], bands, strict=True))
 
     power = causes("Uncertainty of power", "Power", lambda row: row.power)
     if band.sureness is None:
         return power
-    return group(power, causes("Uncertainty of the change", f"Change: {band.sureness}", lambda row: row.change or 0.0))
+    return group(
+        power,
+        causes(
+            "Uncertainty of the change", f"Change: {band.sureness}", lambda row: row.change or 0.0
+        ),
+    )
 
 
 def vibration(solution: Solution) -> Markup:
@@ -136,19 +163,28 @@ def vibration(solution: Solution) -> Markup:
     rows: list[Row] = []
     if (frequencies := solution.blade_frequencies) is not None:
         for name, values in vars(frequencies).items():
-            rows.append((f"Blade in {name}", f"{', '.join(number(value, 2) for value in values[:3])} per rev"))
+            rows.append(
+                (
+                    f"Blade in {name}",
+                    f"{', '.join(number(value, 2) for value in values[:3])} per rev",
+                )
+            )
     if (reason := why_no_hub_loads(solution.design)) is not None:
         rows.append(("Hub loads", reason.sentence))
     elif (loads := hub_loads(solution)) is not None:
         low, high = loads.band or (loads.index, loads.index)
         force, moment = (
-            ", ".join(number(size) for name, size in loads.amplitudes.items() if name[0] == kind) for kind in "fm"
+            ", ".join(number(size) for name, size in loads.amplitudes.items() if name[0] == kind)
+            for kind in "fm"
         )
         rows += [
             (f"Fx, Fy, Fz at {loads.per_rev}/rev", f"{force} N"),
             (f"Mx, My at {loads.per_rev}/rev", f"{moment} N m"),
             ("Vibration index", f"{number(loads.index, 1)} {index_unit(solution.design)}"),
-            ("Range over inflow models", f"{number(low, 1)} … {number(high, 1)} %: trade-offs, not a level"),
+            (
+                "Range over inflow models",
+                f"{number(low, 1)} … {number(high, 1)} %: trade-offs, not a level",
+            ),
             ("Weights of Fx, Fy, Fz", "0.5, 0.67, 1; moments divided by the radius"),
         ]
     return _table("Vibration", rows)
@@ -161,7 +197,10 @@ def blade(design: Design) -> Markup:
     angles = np.degrees(design.twist(np.array(stations)))
     places = [shape.section_at(r) for r in stations]
     ratios = [tuple(shape.installed(name).chord_ratio for name in place[:2]) for place in places]
-    shares = [inner + place[2] * (outer - inner) for place, (inner, outer) in zip(places, ratios, strict=True)]
+    shares = [
+        inner + place[2] * (outer - inner)
+        for place, (inner, outer) in zip(places, ratios, strict=True)
+    ]
     chords = shape.chord(stations) * np.array(shares)  # Of the section itself, as in the STL.
     sections = [section_title(inner) if inner == outer else "blended" for inner, outer, _ in places]
     rows = [

@@ -57,7 +57,9 @@ def view_png(
     draw = ImageDraw.Draw(picture)
     ink, dim = (_PALE, _OVERLAY) if dark else (_INK, _DIM)
 
-    def write(x: float, y: float, words: str, height: float, colour: Ink, anchor: str = "ls") -> None:
+    def write(
+        x: float, y: float, words: str, height: float, colour: Ink, anchor: str = "ls"
+    ) -> None:
         draw.text((x, y), words, colour, ImageFont.truetype(font_path(), height), anchor=anchor)
 
     lines, height = headline(line, columns - 2 * _EDGE)
@@ -67,7 +69,9 @@ def view_png(
     for words, x, y in labels:
         half = font.getlength(words) / 2 + 8
         x = min(max(x * columns, half + 8), columns - half - 8)
-        draw.rounded_rectangle((x - half, y * rows - 17, x + half, y * rows + 17), 6, (*ground[:3], 225))
+        draw.rounded_rectangle(
+            (x - half, y * rows - 17, x + half, y * rows + 17), 6, (*ground[:3], 225)
+        )
         write(x, y * rows, words, 24, ink, "mm")
     below = rows - 48
     source = f"{PROGRAM} {versions()[PROGRAM].partition(' ')[0]}, a model, not a measurement"
@@ -83,7 +87,9 @@ def view_png(
         for title, colour, dashed in reversed(key_marks(solution)):
             write(right, below - 24, title, 24, ink, "rs")
             right -= round(font.getlength(title)) + 12
-            for left in (right - 34, right - 14) if dashed else (right - 34, right - 24, right - 14):
+            for left in (
+                (right - 34, right - 14) if dashed else (right - 34, right - 24, right - 14)
+            ):
                 draw.line((left, below - 32, left + 14, below - 32), colour, 5)
             right -= 64
     numbers = PngInfo()
@@ -120,8 +126,20 @@ def font_path() -> str:
     """A font with Greek letters, × and the minus, which that of Pillow lacks: what matplotlib brings, which is not
     imported for that, or one of the system. ValueError where there is none."""
     spec = find_spec("matplotlib")
-    brought = () if spec is None else (str(Path(str(spec.origin)).parent / "mpl-data/fonts/ttf/DejaVuSans.ttf"),)
-    for name in (*brought, "DejaVuSans.ttf", "LiberationSans-Regular.ttf", "Arial.ttf", "arial.ttf"):
+    brought = (
+        ()
+        if spec is None
+        else (str(Path(str(spec.origin)).parent / "mpl-data/fonts/ttf/DejaVuSans.ttf"),)
+    )
+    for name in (
+        *brought,
+        "DejaVuSans.ttf",
+        "LiberationSans-Regular.ttf",
+        "Arial.ttf",
+        "arial.ttf",
+    ):
         with suppress(OSError):
             return str(ImageFont.truetype(name).path)
-    raise ValueError("No font for the words of a picture: install DejaVu Sans, or pip install matplotlib.")
+    raise ValueError(
+        "No font for the words of a picture: install DejaVu Sans, or pip install matplotlib."
+    )

@@ -21,7 +21,10 @@ _log = logging.getLogger(__name__)
 
 def call(client: viser.ClientHandle, function: str, *arguments: Any) -> None:
     """Call a function that `explorer/web` defines in the page, with arguments that JSON can hold."""
-    run_in_page(client, f"{function}({','.join(json.dumps(argument, ensure_ascii=False) for argument in arguments)})")
+    run_in_page(
+        client,
+        f"{function}({','.join(json.dumps(argument, ensure_ascii=False) for argument in arguments)})",
+    )
 
 
 def page_facts(client: viser.ClientHandle) -> PageFacts:
@@ -77,7 +80,9 @@ class Bridge:
         ValueError for a name that is taken, or not listed.
         """
         if name in self._actions or name not in PRESSES:
-            raise ValueError(f"the frame's {name!r} has an action already, or no row in presses.PRESSES")
+            raise ValueError(
+                f"the frame's {name!r} has an action already, or no row in presses.PRESSES"
+            )
         self._actions[name] = action
         if at_once:
             self._at_once.add(name)

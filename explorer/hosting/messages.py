@@ -41,7 +41,9 @@ Text = Annotated[str, Meta(max_length=LONGEST_TEXT)]
 Pixel = tuple[Number, Number]
 Point = tuple[Number, Number, Number]
 Turn = tuple[Number, Number, Number, Number]
-Keys = Literal["cmd/ctrl", "alt", "shift", "cmd/ctrl+alt", "cmd/ctrl+shift", "alt+shift", "cmd/ctrl+alt+shift"]
+Keys = Literal[
+    "cmd/ctrl", "alt", "shift", "cmd/ctrl+alt", "cmd/ctrl+shift", "alt+shift", "cmd/ctrl+alt+shift"
+]
 WidgetValue = bool | Number | Text | Annotated[list[Number], Meta(max_length=1000)] | None
 
 
@@ -80,7 +82,11 @@ class ScenePointerMessage(_Sent):
 
     def fault(self) -> str:
         length = math.hypot(*self.ray_direction)
-        return "" if 0.5 < length < 2.0 else f"ray_direction is {list(self.ray_direction)}, expected a unit vector"
+        return (
+            ""
+            if 0.5 < length < 2.0
+            else f"ray_direction is {list(self.ray_direction)}, expected a unit vector"
+        )
 
 
 class SceneNodeDragMessage(_Sent):
@@ -189,7 +195,11 @@ def _choices(reason: str, kind: Any) -> str:
 
 
 def _words(kind: Any) -> list[str]:
-    return [word for part in get_args(kind) for word in ([part] if isinstance(part, str) else _words(part))]
+    return [
+        word
+        for part in get_args(kind)
+        for word in ([part] if isinstance(part, str) else _words(part))
+    ]
 
 
 def _shown(value: object) -> str:
@@ -215,7 +225,9 @@ def checked_press(text: Any) -> tuple[str, Any] | None:
             raise ValueError("there is no such press")
         kind = PRESSES[press.name]
         # A button has its number as text: not strictly.
-        return press.name, None if kind is None else msgspec.json.decode(press.value, type=kind, strict=False)
+        return press.name, None if kind is None else msgspec.json.decode(
+            press.value, type=kind, strict=False
+        )
     except ValueError as error:
         log_dropped(f"press {_shown(text)}: {error}{_choices(str(error), kind)}")
         return None
@@ -246,7 +258,9 @@ def read_facts(text: str) -> PageFacts:
         return PageFacts(query=None)
 
 
-def accepted_value(value: Any, current: Any, *, choices: Sequence[str] = (), low: Any = None, high: Any = None) -> Any:
+def accepted_value(
+    value: Any, current: Any, *, choices: Sequence[str] = (), low: Any = None, high: Any = None
+) -> Any:
     """What a widget takes of a value that its page sent; ValueError with one sentence for what no page of ours sends.
 
     `current`: its present value, which has the type of every other. A number is brought between `low` and `high`,

@@ -93,7 +93,9 @@ def host_name(text: str) -> str:
     """The host name in `text`; ValueError with one sentence where there is none."""
     name, _ = _split(text)
     if not name:
-        raise ValueError(f"{text!r} is not a host name: give a name such as rotor.example, without https:// and path")
+        raise ValueError(
+            f"{text!r} is not a host name: give a name such as rotor.example, without https:// and path"
+        )
     return name
 
 
@@ -138,7 +140,11 @@ TITLE = "Rotor explorer"
 _VIEWPORT = "width=device-width, initial-scale=1"
 """Of the client's page. Without a least scale, a list that opens beyond the edge of a telephone widens the page, which
 closes the list, without end."""
-_SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = start_of("script"), end_of("head"), f"{start_of('body')}>"
+_SCRIPT_BEGINS, _HEAD_ENDS, _BODY_BEGINS = (
+    start_of("script"),
+    end_of("head"),
+    f"{start_of('body')}>",
+)
 
 
 @dataclass(frozen=True)
@@ -164,16 +170,26 @@ def with_loading_screen(client: str, frame: str = "") -> ServedPage:
     head, begins, rest = client.partition(_SCRIPT_BEGINS)
     script, ends, tail = rest.partition(_HEAD_ENDS)
     before, body, content = tail.partition(_BODY_BEGINS)
-    if not (begins and ends and body) or before.strip() or start_of("title") not in head or _VIEWPORT not in head:
-        raise ValueError("The client's page is not built as expected: a head that ends in its script, then a body.")
+    if (
+        not (begins and ends and body)
+        or before.strip()
+        or start_of("title") not in head
+        or _VIEWPORT not in head
+    ):
+        raise ValueError(
+            "The client's page is not built as expected: a head that ends in its script, then a body."
+        )
     head = with_title(head, TITLE).replace(_VIEWPORT, f"{_VIEWPORT}, minimum-scale=1")
     veil = web.text("loading.html") + web.scripts("loading.js")
-    return ServedPage(f"{head}{web.styles('loading.css')}{ends}{body}{veil}{frame}{begins}{script}{content}".encode())
+    return ServedPage(
+        f"{head}{web.styles('loading.css')}{ends}{body}{veil}{frame}{begins}{script}{content}".encode()
+    )
 
 
 _log = logging.getLogger(__name__)
 _visitors = logging.getLogger(f"{__name__}.visitors")
-_visitors.setLevel(logging.CRITICAL)  # A malformed request is not an error of ours, so it is not printed.
+# A malformed request is not an error of ours, so it is not printed.
+_visitors.setLevel(logging.CRITICAL)
 
 Answer = Callable[[ServerConnection, Request], Response | None]
 Handler = Callable[[ServerConnection], Awaitable[None]]
@@ -206,7 +222,12 @@ class RequestFilter:
 
     def around(self, handler: Handler, options: dict[str, Any]) -> tuple[Handler, dict[str, Any]]:
         """A server's handler and options with the filter before them."""
-        filtered = {**options, "max_size": LARGEST_MESSAGE, "create_connection": GuardedConnection, "logger": _visitors}
+        filtered = {
+            **options,
+            "max_size": LARGEST_MESSAGE,
+            "create_connection": GuardedConnection,
+            "logger": _visitors,
+        }
         filtered["process_request"] = self._process(options["process_request"])
         return _contained(handler), filtered
 
@@ -221,13 +242,17 @@ class RequestFilter:
             try:
                 upgrades, host, origin, site = (request.headers.get(name) for name in names)
             except MultipleValuesError as error:
-                return _plain(http.HTTPStatus.BAD_REQUEST, f"The request has two headers {error}: send one.")
+                return _plain(
+                    http.HTTPStatus.BAD_REQUEST, f"The request has two headers {error}: send one."
+                )
             upgrade = (upgrades or "").lower() == "websocket"
             sentence = self.hosts.refusal(host, origin if upgrade else None)
             if sentence is not None:
                 return _plain(http.HTTPStatus.FORBIDDEN, sentence)
             if upgrade and len(connection.server.connections) >= self.connections:
-                return _plain(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many pages are open: try again later.")
+                return _plain(
+                    http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many pages are open: try again later."
+                )
             path, _, query = request.path.partition("?")
             if not upgrade and self.page is not None and path in ("/", "/index.html"):
                 return _served(self.page, request, self._headers)
@@ -236,13 +261,19 @@ class RequestFilter:
             if not upgrade and path == "/first-answer":
                 # An image of another site could ask for solve after solve.
                 if site not in (None, "same-origin", "none"):
-                    return _plain(http.HTTPStatus.FORBIDDEN, "Pages of other sites may not ask for answers.")
+                    return _plain(
+                        http.HTTPStatus.FORBIDDEN, "Pages of other sites may not ask for answers."
+                    )
                 return _plain(http.HTTPStatus.OK, self.first_answer(query))
             if not upgrade and path == "/place":  # Asked by a page that was turned away.
                 return _plain(http.HTTPStatus.OK, "free" if self.place_free() else "taken")
             try:
                 served = inner(connection, request)
-            except (OSError, ValueError):  # No file can have this path: it is too long or has a zero byte.
+            except (
+                OSError,
+                ValueError,
+            ):
+                # No file can have this path: it is too long or has a zero byte.
                 served = _plain(http.HTTPStatus.NOT_FOUND, "There is no such page.")
             if served is not None:
                 for name, value in self._headers.items():
@@ -252,7 +283,9 @@ class RequestFilter:
         def process_request(connection: ServerConnection, request: Request) -> Response | None:
             response = answer(connection, request)
             if isinstance(connection, GuardedConnection) and connection.head_only:
-                response = response or _plain(http.HTTPStatus.BAD_REQUEST, "A WebSocket opens with GET.")
+                response = response or _plain(
+                    http.HTTPStatus.BAD_REQUEST, "A WebSocket opens with GET."
+                )
                 response.body = b""
             return response
 
@@ -291,7 +324,9 @@ class GuardedConnection(ServerConnection):
             method, _, rest = data.partition(b" ")
             # The server below leaves all but GET of HTTP/1.1 without an answer.
             if method.isalpha() and method not in (b"GET", b"HEAD"):
-                return self._refuse(_plain(http.HTTPStatus.METHOD_NOT_ALLOWED, _METHODS, Allow="GET, HEAD"))
+                return self._refuse(
+                    _plain(http.HTTPStatus.METHOD_NOT_ALLOWED, _METHODS, Allow="GET, HEAD")
+                )
             if rest.partition(b"\n")[0].rstrip().endswith(b"HTTP/1.0"):
                 return self._refuse(_plain(http.HTTPStatus.HTTP_VERSION_NOT_SUPPORTED, _VERSION))
             self.head_only = method == b"HEAD"
@@ -308,9 +343,15 @@ class GuardedConnection(ServerConnection):
         fault = self.protocol.handshake_exc
         if self.request is None and isinstance(fault, InvalidMessage):
             long = isinstance(fault.__cause__, SecurityError)
-            status = http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE if long else http.HTTPStatus.BAD_REQUEST
+            status = (
+                http.HTTPStatus.REQUEST_HEADER_FIELDS_TOO_LARGE
+                if long
+                else http.HTTPStatus.BAD_REQUEST
+            )
             remedy = "send fewer headers, in lines that end with CR LF, and no body"
-            return self._refuse(_plain(status, f"This request cannot be read ({fault.__cause__}): {remedy}."))
+            return self._refuse(
+                _plain(status, f"This request cannot be read ({fault.__cause__}): {remedy}.")
+            )
         super().send_data()
 
     def process_event(self, event: Event) -> None:
@@ -331,7 +372,8 @@ class GuardedConnection(ServerConnection):
                 _log.warning("a browser sent too much; its connection was closed")
                 # The page shows the reason for this code alone.
                 await _close(self, CloseCode.PROTOCOL_ERROR, _FLOOD)
-            fault = message_fault(message) if isinstance(message, bytes) else ""  # viser's messages are binary.
+            # viser's messages are binary.
+            fault = message_fault(message) if isinstance(message, bytes) else ""
             if not fault:
                 return message
             log_dropped(fault)
@@ -360,7 +402,9 @@ async def _close(connection: ServerConnection, code: CloseCode, reason: str) -> 
 
 def _served(page: ServedPage, request: Request, extra: dict[str, str]) -> Response:
     """The page, or the status that the browser's own copy is current."""
-    headers = Headers({"ETag": page.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding", **extra})
+    headers = Headers(
+        {"ETag": page.tag, "Cache-Control": "no-cache", "Vary": "Accept-Encoding", **extra}
+    )
     if page.tag in ",".join(request.headers.get_all("If-None-Match")):
         return Response(http.HTTPStatus.NOT_MODIFIED, http.HTTPStatus.NOT_MODIFIED.phrase, headers)
     packs = "gzip" in ",".join(request.headers.get_all("Accept-Encoding"))
@@ -373,6 +417,7 @@ def _served(page: ServedPage, request: Request, extra: dict[str, str]) -> Respon
 
 
 def _plain(status: http.HTTPStatus, sentence: str, **others: str) -> Response:
-    body = (sentence + "\n").encode(errors="replace")  # The message may repeat bytes of the request that are not text.
+    # The message may repeat bytes of the request that are not text.
+    body = (sentence + "\n").encode(errors="replace")
     kind = {"Content-Type": "text/plain; charset=utf-8", "Content-Length": str(len(body))}
     return Response(status, status.phrase, Headers({**kind, **_HEADERS, **others}), body)

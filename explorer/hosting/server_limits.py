@@ -154,7 +154,8 @@ def refuse_upload(name: str, size: int, parts: int, under_way: int, accepts: str
     shown = repr(name if len(name) <= 60 else name[:57] + "…")
     if size > LARGEST_FILE:
         return f"{shown} has {size / 2**20:.1f} MB: {LARGEST_FILE // 2**20} MB are allowed."
-    endings = [item.strip().lower() for item in accepts.split(",")]  # Types without a dot say nothing about names.
+    # Types without a dot say nothing about names.
+    endings = [item.strip().lower() for item in accepts.split(",")]
     if not any(not item.startswith(".") or name.lower().endswith(item) for item in endings):
         return f"{shown} is not a supported type: choose a {accepts.replace(',', ' or ')} file."
     if under_way >= UPLOADS_AT_ONCE:

@@ -76,7 +76,10 @@ class ThreadedBuffer(AsyncMessageBuffer):
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
-        self.message_event, self.flush_event = _ThreadedEvent(self.event_loop), _ThreadedEvent(self.event_loop)
+        self.message_event, self.flush_event = (
+            _ThreadedEvent(self.event_loop),
+            _ThreadedEvent(self.event_loop),
+        )
         self._warned_push_after_done = True
 
 
@@ -110,7 +113,9 @@ setattr(viser.GuiApi, "add_html", _add_plain_html)  # noqa: B010 - as above
 websockets.http11.MAX_LINE_LENGTH = LONGEST_HEAD
 
 
-def quiet_server(host: str, port: int, label: str, request_filter: RequestFilter | None = None) -> viser.ViserServer:
+def quiet_server(
+    host: str, port: int, label: str, request_filter: RequestFilter | None = None
+) -> viser.ViserServer:
     """A server that prints nothing (viser's `verbose=False` still prints a banner), with a filter for its requests."""
     with _silence(), _filtered_by(request_filter) if request_filter else contextlib.nullcontext():
         return viser.ViserServer(host=host, port=port, label=label, verbose=False)
@@ -143,7 +148,9 @@ def _filtered_by(request_filter: RequestFilter) -> Iterator[None]:
         finally:
             websockets.asyncio.server.serve = serve
     if not passed:
-        raise RuntimeError("The server started without its request filter: this viser starts servers in another way.")
+        raise RuntimeError(
+            "The server started without its request filter: this viser starts servers in another way."
+        )
 
 
 def log_failed_callbacks() -> None:
@@ -161,7 +168,9 @@ def _log_failure(done: Any) -> None:
 
 
 def client_html() -> str:
-    return (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text(encoding="utf-8")
+    return (Path(viser.__file__).parent / "client" / "build" / "index.html").read_text(
+        encoding="utf-8"
+    )
 
 
 def quiet_stop(server: viser.ViserServer) -> None:
@@ -193,7 +202,9 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
         if not isinstance(button, viser.GuiUploadButtonHandle):
             return  # The file would become the value of another widget.
         accepts = getattr(button._impl.props, "mime_type", "")
-        sentence = refuse_upload(message.filename, message.size_bytes, message.part_count, len(under_way), accepts)
+        sentence = refuse_upload(
+            message.filename, message.size_bytes, message.part_count, len(under_way), accepts
+        )
         if sentence is None:
             begin(client_id, message)
         else:
@@ -206,7 +217,11 @@ def guard_uploads(client: viser.ClientHandle, tell: Callable[[str], None]) -> No
             return  # The upload was refused or never begun.
         left = state["total_bytes"] - state["transferred_bytes"] - len(message.content)
         if left < 0 or (left and len(state["parts"]) + 1 == state["part_count"]):
-            refuse(message.source_component_uuid, message.transfer_uuid, "A file was not as long as announced.")
+            refuse(
+                message.source_component_uuid,
+                message.transfer_uuid,
+                "A file was not as long as announced.",
+            )
         else:
             more(client_id, message)
 
@@ -305,10 +320,14 @@ def set_pose(handle: viser.SceneNodeHandle, wxyz: Array, position: Array | None 
     node = handle._impl
     if (node.wxyz != wxyz).any():
         node.wxyz[:] = wxyz
-        node.api._queue_scene_message(_messages.SetOrientationMessage(node.name, tuple(wxyz.tolist())))
+        node.api._queue_scene_message(
+            _messages.SetOrientationMessage(node.name, tuple(wxyz.tolist()))
+        )
     if position is not None and (node.position != position).any():
         node.position[:] = position
-        node.api._queue_scene_message(_messages.SetPositionMessage(node.name, tuple(position.tolist())))
+        node.api._queue_scene_message(
+            _messages.SetPositionMessage(node.name, tuple(position.tolist()))
+        )
 
 
 def aim(camera: viser.CameraHandle, position: Array, look_at: Array) -> None:

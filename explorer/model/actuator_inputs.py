@@ -30,7 +30,10 @@ CONCEPTS = ("linear", "quadratic", "two-segment", "three-segment")
 MOST_SEGMENTS = len(SMOOTH_DIVISIONS) + 1
 AT_REST = (0.0,) * MOST_SEGMENTS
 """No voltage on any segment."""
-BLADES: dict[BladeKind, str] = {"retrofit": "Existing blade (retrofit)", "new": "New blade, softer in torsion"}
+BLADES: dict[BladeKind, str] = {
+    "retrofit": "Existing blade (retrofit)",
+    "new": "New blade, softer in torsion",
+}
 AGAINST: tuple[Against, ...] = ("same-blade", "best-fixed")
 """The blade that every change counts from."""
 
@@ -94,7 +97,9 @@ class ActuatorInputs:
     def reach(self, installed: InstalledActuator) -> tuple[float, float]:
         """The twist in flight at either end of its drive, the lower first [rad]."""
         ends = self.least_drive, 100.0
-        low, high = sorted(replace(self, drives=(end,) * MOST_SEGMENTS).tip(installed) for end in ends)
+        low, high = sorted(
+            replace(self, drives=(end,) * MOST_SEGMENTS).tip(installed) for end in ends
+        )
         return low, high
 
     @property
@@ -107,7 +112,9 @@ class ActuatorInputs:
         if design.aircraft.key != KNOWN_BLADE:
             return design
         installed = self.installed(design.rotor)
-        return carrying_driven(design, installed, self.drive_shares(installed), crossed=self.crossed)
+        return carrying_driven(
+            design, installed, self.drive_shares(installed), crossed=self.crossed
+        )
 
     @property
     def driven(self) -> bool:
@@ -119,7 +126,9 @@ def inputs_from_spec(text: str) -> ActuatorInputs:
     one = read_actuator(text)
     concepts = [name for name in CONCEPTS if concept_divisions(name) == one.placement.divisions]
     if not concepts:
-        raise ValueError(f"actuator {text!r:.80} has divisions that no concept of this page has: leave them out")
+        raise ValueError(
+            f"actuator {text!r:.80} has divisions that no concept of this page has: leave them out"
+        )
     drives = one.drives * MOST_SEGMENTS if len(one.drives) == 1 else (*one.drives, *AT_REST)
     return ActuatorInputs(
         actuator=one.id,
@@ -193,7 +202,9 @@ def verdict_inputs_of(inputs: ActuatorInputs, design: Design) -> VerdictInputs:
 def concept_divisions(name: str) -> tuple[float, ...]:
     """r/R where a concept's segments meet."""
     concept = find_concept(name)
-    return divisions_of(concept.twist([0.5 * (p.low + p.high) for p in concept.parameters]), len(concept.parameters))
+    return divisions_of(
+        concept.twist([0.5 * (p.low + p.high) for p in concept.parameters]), len(concept.parameters)
+    )
 
 
 Outcome = Verdict | str
@@ -203,7 +214,14 @@ Outcome = Verdict | str
 def verdict_on(question: VerdictInputs) -> Verdict:
     """The verdict on the actuator asked about; ValueError or RuntimeError with a sentence where there is none."""
     actuator, concept = find_actuator(question.actuator), find_concept(question.concept)
-    return judge(actuator, question.pair, concept, question.placement, question.host, against=question.against)
+    return judge(
+        actuator,
+        question.pair,
+        concept,
+        question.placement,
+        question.host,
+        against=question.against,
+    )
 
 
 def lean_verdict(question: VerdictInputs) -> Verdict:
@@ -212,7 +230,9 @@ def lean_verdict(question: VerdictInputs) -> Verdict:
     base = verdict.baseline
     first, second = (replace(best, solutions=()) for best in base.best)
     base = replace(base, best=(first, second), fixed=replace(base.fixed, solutions=()))
-    resting, optimum = (replace(twists, solutions=()) for twists in (verdict.resting, verdict.optimum))
+    resting, optimum = (
+        replace(twists, solutions=()) for twists in (verdict.resting, verdict.optimum)
+    )
     return replace(verdict, baseline=base, resting=resting, optimum=optimum)
 
 
@@ -225,9 +245,14 @@ def as_it_comes(id: str) -> dict[str, Any]:
 def verdict_tasks(question: VerdictInputs) -> dict[str, Call]:
     """By actuator: the chosen one first, then all others as they come, on the same blade and over the same mission."""
     start = ActuatorInputs()
-    comes = replace(question, placement=replace(question.placement, plies=start.plies, chord=start.chord))
+    comes = replace(
+        question, placement=replace(question.placement, plies=start.plies, chord=start.chord)
+    )
     others = {id: replace(comes, actuator=id) for id in actuators() if id != question.actuator}
-    return {id: Call(lean_verdict, (one,)) for id, one in {question.actuator: question, **others}.items()}
+    return {
+        id: Call(lean_verdict, (one,))
+        for id, one in {question.actuator: question, **others}.items()
+    }
 
 
 def schedule_at(flight: ActuatorFlight, installed: InstalledActuator, leg: float) -> dict[str, Any]:
@@ -238,11 +263,17 @@ def schedule_at(flight: ActuatorFlight, installed: InstalledActuator, leg: float
     """
     if not flight.swings:
         return {}
-    actuator, shares, volts = installed.actuator, np.asarray(flight.swings), np.asarray(flight.voltages)
+    actuator, shares, volts = (
+        installed.actuator,
+        np.asarray(flight.swings),
+        np.asarray(flight.voltages),
+    )
     changes: dict[str, Any] = {}
     if volts.size:
         swings, shares = shares, volts / actuator.drive_swing
-        changes["crossed"] = installed.host.kind == "retrofit" and float(np.sum(swings * shares)) < 0.0
+        changes["crossed"] = (
+            installed.host.kind == "retrofit" and float(np.sum(swings * shares)) < 0.0
+        )
     elif not actuator.drive_range[0]:
         changes["crossed"], shares = float(np.sum(shares)) < 0.0, np.abs(shares)
     legs = np.arange(len(shares))
@@ -261,5 +292,7 @@ def flight_legs(design: Design) -> tuple[FlightLeg, ...]:
     halves = list[FlightLeg]()
     for a, b in pairwise(legs):  # A climb ends half way to the next leg.
         climb = 0.0 if a.climb_speed else 0.5 * b.climb_speed
-        halves.append(FlightLeg(f"{a.name} to {b.name}", 0.5 * (a.advance_ratio + b.advance_ratio), climb))
+        halves.append(
+            FlightLeg(f"{a.name} to {b.name}", 0.5 * (a.advance_ratio + b.advance_ratio), climb)
+        )
     return (*chain.from_iterable(zip(legs, halves, strict=False)), legs[-1])

@@ -80,15 +80,29 @@ def _change(one: Parameter) -> Parameter:
         return replace(one, input=name)
     steepest = math.radians(20.0)
     return replace(
-        one, low=-steepest, high=steepest, start=0.0, help=_CHANGE, short=f"Δ {one.short.lower()}", input=name
+        one,
+        low=-steepest,
+        high=steepest,
+        start=0.0,
+        help=_CHANGE,
+        short=f"Δ {one.short.lower()}",
+        input=name,
     )
 
 
 def _laws() -> Iterator[Concept]:
     changed = tuple(map(_change, TWO_SEGMENT_FREE.every))
-    yield replace(TWO_SEGMENT_FREE, page="builtin", title="As built + two-segment change", every=changed)
-    yield from (replace(law, title=law.title.partition(",")[0]) for law in CONCEPTS.values() if law.page)
-    titles = {"ideal": "Ideal (θtip/r)", "given": "From the design file", "optimised": "From the optimiser"}
+    yield replace(
+        TWO_SEGMENT_FREE, page="builtin", title="As built + two-segment change", every=changed
+    )
+    yield from (
+        replace(law, title=law.title.partition(",")[0]) for law in CONCEPTS.values() if law.page
+    )
+    titles = {
+        "ideal": "Ideal (θtip/r)",
+        "given": "From the design file",
+        "optimised": "From the optimiser",
+    }
     yield from (Concept(name, title, "", IdealTwist, (), name) for name, title in titles.items())
 
 
@@ -103,20 +117,28 @@ def _row(name: str, one: Parameter) -> Quantity:
     label, unit = one.short or one.title, one.shown_unit
     if one.angular:
         low, high = (round(one.shown(end), 9) for end in (one.low, one.high))
-        form = Slider(f"{label} [{unit}]", low, high, 0.5 if unit == "°/R²" else 0.1, per=f" per {unit}")
+        form = Slider(
+            f"{label} [{unit}]", low, high, 0.5 if unit == "°/R²" else 0.1, per=f" per {unit}"
+        )
     else:
         form = Slider(f"{label} [r/R]", one.low, one.high, 0.01, 0.1, "/0.1 R")
     return Quantity(name, "number", default=one.start, input=name, slider=form, hint=one.help)
 
 
-TWISTS = {name: _row(name, one) for law in LAWS.values() for name, one in zip(law.inputs, law.parameters, strict=True)}
+TWISTS = {
+    name: _row(name, one)
+    for law in LAWS.values()
+    for name, one in zip(law.inputs, law.parameters, strict=True)
+}
 """Parameters of the twist laws, by input."""
 FLIGHT = {row.input: row for row in CONDITION.values()}
 """Quantities of the flight condition, by input."""
 HELD = {row.input: row for row in AIRFRAME.values()}
 """Numbers outside it, by input; None is the rotor's own. Files and links set them, no slider."""
 MODELS = {
-    row.input: row for row in QUANTITIES.values() if row.input and row.place == f"models.{row.input}" != "models.trim"
+    row.input: row
+    for row in QUANTITIES.values()
+    if row.input and row.place == f"models.{row.input}" != "models.trim"
 }
 """Quantities that are fields of `rotor.design.design.Models`."""
 _PRESET = QUANTITIES["preset"]
@@ -128,14 +150,20 @@ def _default(row: Quantity) -> Any:
     """Default of the first rotor, where the table leaves it to rotor or preset."""
     if row.place == "condition.mass":
         return reference_mass_t(shipped_aircraft(SHIPPED_ROTORS[0]))
-    return getattr(FLIGHT_MODELS, row.field) if row.default is None and row.input in MODELS else row.default
+    return (
+        getattr(FLIGHT_MODELS, row.field)
+        if row.default is None and row.input in MODELS
+        else row.default
+    )
 
 
 if TYPE_CHECKING:
     _Quantities = Any  # A type checker cannot read fields that come from a table.
 else:
     _Quantities = make_dataclass(
-        "_Quantities", [(name, Any, _default(row)) for name, row in (ROWS | HELD).items()], frozen=True
+        "_Quantities",
+        [(name, Any, _default(row)) for name, row in (ROWS | HELD).items()],
+        frozen=True,
     )
 
 
@@ -170,7 +198,11 @@ class Inputs(_Quantities):
     @property
     def aircraft(self) -> Aircraft:
         """The aircraft of the menu."""
-        return self.own_rotor if self.rotor == OWN and self.own_rotor is not None else shipped_aircraft(self.rotor)
+        return (
+            self.own_rotor
+            if self.rotor == OWN and self.own_rotor is not None
+            else shipped_aircraft(self.rotor)
+        )
 
     def twist(self) -> TwistLaw | str:
         """The law on the sliders, or the SPEC of one that the rotor supplies."""
@@ -191,7 +223,10 @@ class Inputs(_Quantities):
     def parameters(self) -> list[float]:
         """Parameters of the law on the sliders, in SI units."""
         law = LAWS[self.law]
-        return [one.from_shown(getattr(self, name)) for name, one in zip(law.inputs, law.parameters, strict=True)]
+        return [
+            one.from_shown(getattr(self, name))
+            for name, one in zip(law.inputs, law.parameters, strict=True)
+        ]
 
     def design(self) -> Design:
         """The design these inputs mean; NoDesign with one sentence for inputs that mean none."""
@@ -210,7 +245,9 @@ class Inputs(_Quantities):
             **self._flight(),
             **{row.name: getattr(self, name) for name, row in HELD.items()},
             models=with_grid(
-                replace(models, **{name: getattr(self, name) for name in MODELS}), self.elements, self.azimuths
+                replace(models, **{name: getattr(self, name) for name in MODELS}),
+                self.elements,
+                self.azimuths,
             ),
             trim=None if self.stand is None else self.stand.trim,
             stand=None if self.stand is None else self.stand.stand(),
@@ -218,7 +255,9 @@ class Inputs(_Quantities):
             twist_per_rev=self.twist_per_rev,
         )
         if self.twist_per_rev and self.active_shape is not None:
-            design = replace(design, active_twist=ActiveTwist(self.twist_per_rev, *self.active_shape))
+            design = replace(
+                design, active_twist=ActiveTwist(self.twist_per_rev, *self.active_shape)
+            )
         if self.law in NOT_ALWAYS and self.airfoils:
             design = replace(design, rotor=change_airfoils(design.rotor, self.airfoils))
         return design
@@ -228,12 +267,15 @@ class Inputs(_Quantities):
         return {
             row.name: row.of_input(getattr(self, name))
             for name, row in FLIGHT.items()
-            if not (self.aircraft.isolated and row.in_flight) and not (row.axial and not self.counts(row))
+            if not (self.aircraft.isolated and row.in_flight)
+            and not (row.axial and not self.counts(row))
         }
 
     def counts(self, row: Quantity) -> bool:
         """Whether a quantity counts: some do not on a test stand, or with the document's equations."""
-        return row.applies(tested=self.stand is not None, axial=preset_models(self.preset).disk_axial_flow)
+        return row.applies(
+            tested=self.stand is not None, axial=preset_models(self.preset).disk_axial_flow
+        )
 
     @property
     def idle(self) -> frozenset[str]:
@@ -285,7 +327,9 @@ def inputs_of(design: Design) -> Inputs:
         stand=stand_of(design),
         pitch_per_rev=design.pitch_per_rev,
         twist_per_rev=() if active is None else active.harmonics,
-        active_shape=None if active is None or design.linear_active_twist else (active.stations, active.shape),
+        active_shape=None
+        if active is None or design.linear_active_twist
+        else (active.stations, active.shape),
         **{name: row.as_input(row.of(design)) for name, row in FLIGHT.items()},
         **{name: design.unusual.get(row.name) for name, row in HELD.items()},
         **{name: row.of(design) for name, row in MODELS.items()},
@@ -315,7 +359,16 @@ def with_rotor(inputs: Inputs, name: str, brought: Aircraft | None = None) -> In
         mu = OPENING.advance_ratio
     changed = replace(changed, advance_ratio=mu, stand=stand)
     waves = {"pitch_per_rev": (), "twist_per_rev": (), "active_shape": None, **dict.fromkeys(HELD)}
-    return replace(changed, law="builtin", mass_t=mass, given=None, optimised=None, airfoils="", **plain, **waves)
+    return replace(
+        changed,
+        law="builtin",
+        mass_t=mass,
+        given=None,
+        optimised=None,
+        airfoils="",
+        **plain,
+        **waves,
+    )
 
 
 def with_optimum(inputs: Inputs, design: Design) -> Inputs:
@@ -369,5 +422,9 @@ def baseline_of(design: Design) -> Design:
 def baseline_title(design: Design, reference: Design | None = None) -> str:
     """What the change of power is measured against, in the user's words."""
     if design.rotor.blade.carried is not None:
-        return "same blade without it" if reference is None or reference.twist == design.jig else "best fixed blade"
+        return (
+            "same blade without it"
+            if reference is None or reference.twist == design.jig
+            else "best fixed blade"
+        )
     return design.aircraft.twist_title(design.preset)

@@ -59,7 +59,8 @@ def _leg(text: str) -> tuple[float, float]:
 def legs(design: Design, mission: str = MISSION) -> tuple[WeightedCondition, ...]:
     """The legs at the design's weight and altitude; ValueError as in `mission_of`."""
     return tuple(
-        WeightedCondition(replace(design.condition, advance_ratio=mu), hours) for mu, hours in mission_of(mission)
+        WeightedCondition(replace(design.condition, advance_ratio=mu), hours)
+        for mu, hours in mission_of(mission)
     )
 
 
@@ -111,7 +112,9 @@ class SearchRequest:
             return find_concept(self.concept, breaks)
         return CONCEPTS[self.concept]
 
-    def wanted(self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]) -> Objective:
+    def wanted(
+        self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]
+    ) -> Objective:
         """The objective; ValueError with one sentence where the design cannot have it."""
         if self.objective == "mission":
             return Objective("total", legs(design))
@@ -122,16 +125,28 @@ class SearchRequest:
             return hover_and_cruise(design, self.hover_share / 100.0, cruise)
         return at_condition(design, "induced" if self.objective == "induced" else "total")
 
-    def search(self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]) -> Search:
+    def search(
+        self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]
+    ) -> Search:
         """The search; ValueError with one sentence where it makes no sense."""
         if self.index is not None and not design.models.bending:
-            raise ValueError("A limit on vibration needs blades that bend: switch Blade bending on, under Model.")
+            raise ValueError(
+                "A limit on vibration needs blades that bend: switch Blade bending on, under Model."
+            )
         return Search(design, self.known_concept(), self.wanted(design, legs), self.limits(design))
 
     def limits(self, design: Design) -> Limits:
         """The limits; change is counted from the design's own twist."""
-        change = None if self.change is None else even_change_limit(design.twist, math.radians(self.change))
-        return Limits(stalled=None if self.stalled is None else self.stalled / 100.0, change=change, index=self.index)
+        change = (
+            None
+            if self.change is None
+            else even_change_limit(design.twist, math.radians(self.change))
+        )
+        return Limits(
+            stalled=None if self.stalled is None else self.stalled / 100.0,
+            change=change,
+            index=self.index,
+        )
 
 
 @dataclass(frozen=True)
@@ -164,12 +179,17 @@ class SearchRun:
     @property
     def start_power(self) -> float | None:
         """Power of the design that the search began from [W]."""
-        return next((report.power for report in self.record.reports if isinstance(report, StartPower)), None)
+        return next(
+            (report.power for report in self.record.reports if isinstance(report, StartPower)), None
+        )
 
     @property
     def reference_doubt(self) -> Doubt | None:
         """What the optimum saves over the reference design; None where that is the start, or not known."""
-        return next((report.doubt for report in self.record.reports if isinstance(report, ReferenceSaving)), None)
+        return next(
+            (report.doubt for report in self.record.reports if isinstance(report, ReferenceSaving)),
+            None,
+        )
 
     @property
     def optimum(self) -> Optimum | None:
@@ -178,7 +198,10 @@ class SearchRun:
 
     @property
     def progress(self) -> Progress | None:
-        return next((report for report in reversed(self.record.reports) if isinstance(report, Progress)), None)
+        return next(
+            (report for report in reversed(self.record.reports) if isinstance(report, Progress)),
+            None,
+        )
 
     @cached_property
     def frames(self) -> tuple[SearchFrame, ...]:
@@ -189,13 +212,22 @@ class SearchRun:
                 power = math.inf if report.power is None else report.power
                 frames.append(SearchFrame(power, self.search.design))
                 continue
-            if not isinstance(report, Progress) or report.best_power is None or report.best_parameters is None:
+            if (
+                not isinstance(report, Progress)
+                or report.best_power is None
+                or report.best_parameters is None
+            ):
                 continue
             # The concept's first may be no better than the blade it began from; it is shown all the same.
             if len(frames) == 1 or report.best_power < frames[-1].power:
                 design = self.concept.apply(self.search.design, report.best_parameters)
                 frames.append(SearchFrame(report.best_power, design))
-        if optimum is not None and optimum.best is not None and frames and optimum.design != frames[-1].design:
+        if (
+            optimum is not None
+            and optimum.best is not None
+            and frames
+            and optimum.design != frames[-1].design
+        ):
             frames.append(SearchFrame(optimum.best.power, optimum.design))
         return tuple(frames)
 
@@ -218,7 +250,9 @@ class SearchRun:
             return 0.0
         if progress.phase == "band":
             return 0.9
-        tried = sum(isinstance(one, Progress) and one.start == progress.start for one in self.record.reports)
+        tried = sum(
+            isinstance(one, Progress) and one.start == progress.start for one in self.record.reports
+        )
         return 0.85 * (progress.start + tried / (tried + 15.0)) / progress.starts
 
     def matches(self, design: Design) -> bool:

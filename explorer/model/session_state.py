@@ -45,17 +45,26 @@ class Pinned:
     def driven(self) -> bool:
         """Whether an actuator also twists the blade, which the sliders cannot show."""
         design = self.solution.design
-        return design.rotor.blade.carried is not None or design.active_twist != self.inputs.design().active_twist
+        return (
+            design.rotor.blade.carried is not None
+            or design.active_twist != self.inputs.design().active_twist
+        )
 
     def design(self, present: Design) -> Design:
         """A's blade and models in the flight condition of the present design, level where its models cannot climb."""
         design = self.solution.design
         tested = design.condition.stand is not None, present.condition.stand is not None
         trim = present.models.trim if any(tested) else design.models.trim
-        level = {row.field: row.default for row in UNUSUAL.values() if row.axial and not design.models.disk_axial_flow}
+        level = {
+            row.field: row.default
+            for row in UNUSUAL.values()
+            if row.axial and not design.models.disk_axial_flow
+        }
         carried = design.rotor.blade.carried
         flown = present.bare.condition
-        condition = replace(flown, mass=flown.mass + (carried.aircraft_kg if carried else 0.0), **level)
+        condition = replace(
+            flown, mass=flown.mass + (carried.aircraft_kg if carried else 0.0), **level
+        )
         return replace(design, condition=condition, models=replace(design.models, trim=trim))
 
     def sliders(self, present: Inputs, along: bool) -> Inputs:
@@ -157,7 +166,11 @@ class Pinboard:
             given = self._put[0]  # Removed once it is A: `inputs` reads it until then.
             try:
                 answer = None if given is None else self._by(given.design(), None, DEFAULT_OPTIONS)
-                self.pin(None if given is None or answer is None or not answer.converged else Pinned(given, answer))
+                self.pin(
+                    None
+                    if given is None or answer is None or not answer.converged
+                    else Pinned(given, answer)
+                )
             finally:
                 self._put.popleft()
         while self._asked and (outcome is None or outcome.inputs is None):
@@ -170,19 +183,33 @@ class Pinboard:
         if pinned is not self.pinned:
             self.pinned = pinned
             self.answer = None if pinned is None else pinned.solution
-            design, solution = (None, None) if pinned is None else (pinned.solution.design, pinned.solution)
+            design, solution = (
+                (None, None) if pinned is None else (pinned.solution.design, pinned.solution)
+            )
             self._known = BaselineCache(design, solution, self._by)
 
-    def solve(self, present: Design, hurried: bool = False, moving: bool = False) -> Solution | None:
+    def solve(
+        self, present: Design, hurried: bool = False, moving: bool = False
+    ) -> Solution | None:
         """A's solution: in the present flight condition if A flies along, else as it was when pinned.
 
         A of another rotor keeps its own solution, because its weight differs. A trim that fails is slow, so it
         is not repeated when `hurried`: a newer update waits. `moving`: to the digits shown.
         """
-        along = self.along and self.pinned is not None and self.pinned.solution.design.aircraft == present.aircraft
-        if self.pinned is None or (along and hurried and self.answer is not None and not self.answer.converged):
+        along = (
+            self.along
+            and self.pinned is not None
+            and self.pinned.solution.design.aircraft == present.aircraft
+        )
+        if self.pinned is None or (
+            along and hurried and self.answer is not None and not self.answer.converged
+        ):
             return self.answer
-        self.answer = self._known.solve(self.pinned.design(present), moving) if along else self.pinned.solution
+        self.answer = (
+            self._known.solve(self.pinned.design(present), moving)
+            if along
+            else self.pinned.solution
+        )
         return self.answer
 
 
@@ -197,20 +224,28 @@ class Analyses:
         self._kept: tuple[Analysis, ...] = ()
 
     def solve(
-        self, design: Design, start: Solution | None = None, options: SolverOptions = DEFAULT_OPTIONS
+        self,
+        design: Design,
+        start: Solution | None = None,
+        options: SolverOptions = DEFAULT_OPTIONS,
     ) -> Solution:
         """As `rotor.solve`; the equations are kept for slopes."""
         return self._keep(analyse(design, start, options)).solution
 
     def of(self, solution: Solution) -> Analysis:
-        return self._keep(next((one for one in self._kept if one.solution is solution), None) or Analysis(solution))
+        return self._keep(
+            next((one for one in self._kept if one.solution is solution), None)
+            or Analysis(solution)
+        )
 
     def forget_others(self, *shown: Solution | None) -> None:
         """Keep those of these solutions only: their derivatives are large."""
         self._kept = tuple(one for one in self._kept if one.solution in shown)
 
     def _keep(self, analysis: Analysis) -> Analysis:
-        self._kept = (analysis, *(one for one in self._kept if one is not analysis))[:_KEPT_SOLUTIONS]
+        self._kept = (analysis, *(one for one in self._kept if one is not analysis))[
+            :_KEPT_SOLUTIONS
+        ]
         return analysis
 
 

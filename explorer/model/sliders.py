@@ -42,7 +42,9 @@ def _weight(aircraft: Aircraft, units: Units) -> Slider:
         return Slider("Mass [t]", low, high, step, 0.1, "/100 kg")
     coarse = 100.0 if high > 4.0 else 10.0
     ends = (math.floor(POUND.of(1e3 * low) / coarse), math.ceil(POUND.of(1e3 * high) / coarse))
-    return Slider("Mass [lb]", coarse * ends[0], coarse * ends[1], coarse, 0.2 * POUND.size, "/200 lb")
+    return Slider(
+        "Mass [lb]", coarse * ends[0], coarse * ends[1], coarse, 0.2 * POUND.size, "/200 lb"
+    )
 
 
 _FIRST = shipped_aircraft(SHIPPED_ROTORS[0])
@@ -55,7 +57,11 @@ def slider(name: str, units: Units, aircraft: Aircraft = _FIRST) -> Slider:
     if name == "mass_t":
         return _weight(aircraft, units)
     form = form_of(ROWS[name], units)
-    if aircraft.isolated and name in ("advance_ratio", "climb_m_s"):  # Also the rotor of a propeller.
+    # Also the rotor of a propeller.
+    if aircraft.isolated and name in (
+        "advance_ratio",
+        "climb_m_s",
+    ):
         row = ROWS[name]
         high = (row.high_on_stand or row.high) / form.size
         return replace(form, high=high, low=-high if row.low < 0.0 else form.low)
@@ -67,7 +73,10 @@ def limits(name: str, aircraft: Aircraft = _FIRST) -> tuple[float, float]:
     in_si, in_aviation = slider(name, SI, aircraft), slider(name, AVIATION, aircraft)
     if (row := ROWS[name]).aviation is None:
         return in_si.low, in_si.high
-    low, high = slider_input(row, in_aviation.low, AVIATION), slider_input(row, in_aviation.high, AVIATION)
+    low, high = (
+        slider_input(row, in_aviation.low, AVIATION),
+        slider_input(row, in_aviation.high, AVIATION),
+    )
     return min(in_si.low, low), max(in_si.high, high)
 
 
@@ -121,7 +130,10 @@ def twist_sensitivities(inputs: Inputs, gradient: PitchGradient) -> dict[str, Sl
         return {}
     by_parameter = gradient.along(law.slopes(inputs.parameters, gradient.r))
     rows = zip(law.inputs, law.parameters, by_parameter, strict=True)
-    return {name: SliderSensitivity(name, float(slope) * parameter.from_shown(1.0)) for name, parameter, slope in rows}
+    return {
+        name: SliderSensitivity(name, float(slope) * parameter.from_shown(1.0))
+        for name, parameter, slope in rows
+    }
 
 
 def flight_sensitivities(solution: Solution) -> Generator[None, None, dict[str, SliderSensitivity]]:
@@ -132,7 +144,10 @@ def flight_sensitivities(solution: Solution) -> Generator[None, None, dict[str, 
     advance ratio counts. Yields before every trim.
     """
     sensitivities: dict[str, SliderSensitivity] = {}
-    tested, axial = solution.design.condition.stand is not None, solution.design.models.disk_axial_flow
+    tested, axial = (
+        solution.design.condition.stand is not None,
+        solution.design.models.disk_axial_flow,
+    )
     for name, row in FLIGHT.items():
         if name == "advance_ratio" and solution.design.hovering:
             continue
@@ -147,7 +162,9 @@ def flight_sensitivities(solution: Solution) -> Generator[None, None, dict[str, 
                 points.append((step, moved))
         steps, powers = zip(*sorted(points), strict=True)
         if len(points) > 1:
-            sensitivities[name] = SliderSensitivity(name, float((powers[-1] - powers[0]) / (steps[-1] - steps[0])))
+            sensitivities[name] = SliderSensitivity(
+                name, float((powers[-1] - powers[0]) / (steps[-1] - steps[0]))
+            )
     return sensitivities
 
 
@@ -174,7 +191,11 @@ _NAMED = {
 
 
 def nearest_trim(
-    good: Inputs, wanted: Inputs, trims: Callable[[Inputs], bool], sentence: str = "", carried: float = 0.0
+    good: Inputs,
+    wanted: Inputs,
+    trims: Callable[[Inputs], bool],
+    sentence: str = "",
+    carried: float = 0.0,
 ) -> Inputs:
     """The nearest design that trims, on the sliders' steps: with the mass or advance ratio that the sentence names,
     first that which was moved; else the last from one that does trim towards one that does not.
@@ -183,7 +204,11 @@ def nearest_trim(
     [kg], which the sentence counts and the slider does not.
     """
     moved = differing(good, wanted)
-    named = {names: found.groups() for names, pattern in _NAMED.items() if (found := re.search(pattern, sentence))}
+    named = {
+        names: found.groups()
+        for names, pattern in _NAMED.items()
+        if (found := re.search(pattern, sentence))
+    }
     for names in sorted(named, key=lambda names: moved.isdisjoint(names)):
         there = wanted
         for name, value in zip(names, named[names], strict=True):
@@ -193,7 +218,9 @@ def nearest_trim(
             there = replace(there, **{name: round(steps * step, 6)})
         if trims(there):
             return there
-    if not moved or not all(isinstance(getattr(good, name), float) and name in SLIDERS for name in moved):
+    if not moved or not all(
+        isinstance(getattr(good, name), float) and name in SLIDERS for name in moved
+    ):
         return good
 
     def between(share: float) -> Inputs:
@@ -269,7 +296,9 @@ def with_station_turned(inputs: Inputs, station: BladeStation, degrees: float) -
     slopes = turn_slopes(inputs, station)
     (lowest, _), (highest, _) = turn_ends(inputs, station)
     degrees = min(max(degrees, lowest), highest)
-    values: dict[str, Any] = {name: _onto(name, getattr(inputs, name) + s * degrees) for name, s in slopes.items()}
+    values: dict[str, Any] = {
+        name: _onto(name, getattr(inputs, name) + s * degrees) for name, s in slopes.items()
+    }
     return replace(inputs, **values)
 
 
@@ -327,7 +356,9 @@ class StationDrag:
     def turned(self, degrees: float, best: float | None = None) -> Inputs:
         """The inputs with the station turned so far; `best`: a turn [°] at which it is held for a while."""
         held = best is not None and abs(degrees - best) < DETENT
-        return with_station_turned(self.inputs, self.station, best if best is not None and held else degrees)
+        return with_station_turned(
+            self.inputs, self.station, best if best is not None and held else degrees
+        )
 
     def turn_to(self, inputs: Inputs) -> float | None:
         """By how much the station has been turned in `inputs` [°]; None where they have another law."""
@@ -391,10 +422,18 @@ class BestTurn:
         above = [point for point in seen if point[2] >= 0.0]
         if below and above:
             # Between the two closest turns on either side of the minimum.
-            pair = min(((a, b) for a in below for b in above), key=lambda two: abs(two[0][0] - two[1][0]))
+            pair = min(
+                ((a, b) for a in below for b in above), key=lambda two: abs(two[0][0] - two[1][0])
+            )
         else:
             near = sorted(seen, key=lambda point: abs(point[2]))
-            pair = near[0], next((point for point in near[1:] if abs(point[0] - near[0][0]) > _LEAST_TURN), near[1])
+            pair = (
+                near[0],
+                next(
+                    (point for point in near[1:] if abs(point[0] - near[0][0]) > _LEAST_TURN),
+                    near[1],
+                ),
+            )
         (t1, p1, s1), (t2, p2, s2) = pair
         if not (s2 - s1) * (t2 - t1) > 0.0:
             return None  # Power does not curve upward: no minimum is this way.
@@ -409,12 +448,16 @@ def drag_from(inputs: Inputs, r: float) -> StationDrag | None:
     """A press on the blade at r/R takes the nearest station. None where there is nothing to grab."""
     ready = grabbed_inputs(inputs)
     choice = stations(ready)
-    return StationDrag(ready, min(choice, key=lambda station: abs(station.r - r))) if choice else None
+    return (
+        StationDrag(ready, min(choice, key=lambda station: abs(station.r - r))) if choice else None
+    )
 
 
 def on_steps(inputs: Inputs) -> Inputs:
     """The inputs with the twist at the nearest places that its sliders have."""
-    return replace(inputs, **{name: _onto(name, getattr(inputs, name)) for name in LAWS[inputs.law].inputs})
+    return replace(
+        inputs, **{name: _onto(name, getattr(inputs, name)) for name in LAWS[inputs.law].inputs}
+    )
 
 
 def _onto(name: str, value: float) -> float:

@@ -10,7 +10,15 @@ from rotor import Aircraft, Design, Solution, make_design
 from rotor.design import Flapping, Harmonic, Stand
 from rotor.design.aircraft import read_stand
 from rotor.design.quantities import LOAD_KEYS, STAND, STAND_TRIMS, UNUSUAL, StandTrim
-from rotor.validation import CASES, FlownCase, MeasuredCurve, design_at, inflow, measured_curves, sets_of
+from rotor.validation import (
+    CASES,
+    FlownCase,
+    MeasuredCurve,
+    design_at,
+    inflow,
+    measured_curves,
+    sets_of,
+)
 from rotor.validation.airloads import PITCH_LINK
 from rotor.validation.flown import MeasuredPower, measured_powers
 
@@ -26,7 +34,9 @@ LOAD_TITLES = {name: row.title for name, row in STAND.items() if name in LOAD_KE
 _ANGLE_DECIMALS = 9
 """Decimals of angles that were radians."""
 
-_FIELDS = {name: row.input or name for name, row in STAND.items() if row.numeric and name not in LOAD_KEYS}
+_FIELDS = {
+    name: row.input or name for name, row in STAND.items() if row.numeric and name not in LOAD_KEYS
+}
 """Field of `StandInputs` by key of a record, but for what is given and flapping."""
 _GIVEN_WITH: dict[Flapping, tuple[str, ...]] = {
     "free": ("cyclic_1c_deg", "cyclic_1s_deg"),
@@ -56,9 +66,16 @@ class StandInputs:
     def stand(self) -> Stand:
         """The inputs of the trim; ValueError with one sentence for values that no test has."""
         record: dict[str, Any] = {self.load: self.value, "flapping": self.flapping}
-        unused = {name for flapping, names in _GIVEN_WITH.items() if flapping != self.flapping for name in names}
+        unused = {
+            name
+            for flapping, names in _GIVEN_WITH.items()
+            if flapping != self.flapping
+            for name in names
+        }
         record |= {key: getattr(self, name) for key, name in _FIELDS.items() if key not in unused}
-        return read_stand({key: value for key, value in record.items() if value is not None}, self.trim)
+        return read_stand(
+            {key: value for key, value in record.items() if value is not None}, self.trim
+        )
 
     def with_trim(self, trim: StandTrim, collective_deg: float | None = None) -> "StandInputs":
         """A test with another trim: given controls need a collective and free flapping."""
@@ -67,7 +84,9 @@ class StandInputs:
         changed = replace(self, trim=trim, flapping="free")
         if self.load == "collective_deg":
             return changed
-        return replace(changed, load="collective_deg", value=8.0 if collective_deg is None else collective_deg)
+        return replace(
+            changed, load="collective_deg", value=8.0 if collective_deg is None else collective_deg
+        )
 
 
 def stand_of(design: Design) -> StandInputs | None:
@@ -102,7 +121,9 @@ def equivalent_stand(solution: Solution) -> StandInputs:
     design = solution.design
     return StandInputs(
         value=load_of(solution, "ct_over_sigma"),
-        shaft_tilt_deg=None if design.hovering else round(math.degrees(solution.controls.shaft_tilt), 2),
+        shaft_tilt_deg=None
+        if design.hovering
+        else round(math.degrees(solution.controls.shaft_tilt), 2),
         tip_mach=round(design.tip_mach, 4),
         density=round(design.condition.density, 4),
     )
@@ -121,7 +142,11 @@ def airload_cases(rotor: str) -> tuple[FlownCase, ...]:
 @cache
 def airload_curves(rotor: str) -> tuple[MeasuredCurve, ...]:
     """All that was measured over the azimuth on a shipped rotor."""
-    return tuple(curve for curve in measured_curves() if curve.case.rotor == rotor) if airload_cases(rotor) else ()
+    return (
+        tuple(curve for curve in measured_curves() if curve.case.rotor == rotor)
+        if airload_cases(rotor)
+        else ()
+    )
 
 
 def as_measured(design: Design) -> bool:
@@ -139,7 +164,11 @@ def is_at(case: FlownCase, design: Design) -> bool:
     test, here = _design_of(case), design.condition
     if here.stand is not None:
         here = replace(here, mass=test.condition.mass)
-    return (test.condition, test.models.trim, test.pitch_per_rev) == (here, design.models.trim, design.pitch_per_rev)
+    return (test.condition, test.models.trim, test.pitch_per_rev) == (
+        here,
+        design.models.trim,
+        design.pitch_per_rev,
+    )
 
 
 def nearest_case(design: Design) -> FlownCase | None:
@@ -154,7 +183,11 @@ def nearest_case(design: Design) -> FlownCase | None:
         return not is_at(case, design), test.pitch_per_rev != design.pitch_per_rev, mu
 
     on_stand = design.condition.stand is not None
-    cases = [case for case in airload_cases(design.aircraft.key) if ("stand" in case.conditions) == on_stand]
+    cases = [
+        case
+        for case in airload_cases(design.aircraft.key)
+        if ("stand" in case.conditions) == on_stand
+    ]
     return min(cases, key=apart, default=None)
 
 
@@ -178,10 +211,22 @@ class MeasuredCondition:
     @property
     def inputs(self) -> dict[str, Any]:
         """What it sets of the page's inputs, by name."""
-        shared = {"advance_ratio": self.advance_ratio, "stand": self.stand, "pitch_per_rev": self.pitch_per_rev}
+        shared = {
+            "advance_ratio": self.advance_ratio,
+            "stand": self.stand,
+            "pitch_per_rev": self.pitch_per_rev,
+        }
         tested = self.stand is not None
-        shared |= {row.input: row.default for row in UNUSUAL.values() if row.applies(tested=tested, axial=True)}
-        return shared if tested else {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude}
+        shared |= {
+            row.input: row.default
+            for row in UNUSUAL.values()
+            if row.applies(tested=tested, axial=True)
+        }
+        return (
+            shared
+            if tested
+            else {**shared, "mass_t": round(self.mass / 1e3, 6), "altitude_m": self.altitude}
+        )
 
 
 @cache
@@ -195,18 +240,29 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
         several = [name for name in names if len({point[name] for point in measured.points}) > 1]
         for number, point in enumerate(measured.points, 1):
             words = ", ".join(f"{SHORT[name]} {point[name]:.4g}" for name in several)
-            conditions.append(_condition(measured.menu, f"{number}: {words}", design_at(measured, point)))
+            conditions.append(
+                _condition(measured.menu, f"{number}: {words}", design_at(measured, point))
+            )
     if rotor == inflow.ROTOR:
         for number, (mu, (tilt, ct)) in enumerate(inflow.CONDITIONS.items(), 1):
             solidity = make_design(rotor=rotor).rotor.solidity
             stand = StandInputs(value=ct / solidity, shaft_tilt_deg=tilt)
             conditions.append(
-                MeasuredCondition("Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand)
+                MeasuredCondition(
+                    "Inflow, laser velocimeter", f"{number}: µ {mu:g}, tilt {tilt:g}°", mu, stand
+                )
             )
     powers = flight_powers(rotor)
     flown = {measured.case for measured in powers}
     conditions.extend(
-        MeasuredCondition("Flight", measured.title, measured.mu, None, mass=measured.mass, altitude=measured.altitude)
+        MeasuredCondition(
+            "Flight",
+            measured.title,
+            measured.mu,
+            None,
+            mass=measured.mass,
+            altitude=measured.altitude,
+        )
         for measured in powers
     )
     for number, case in enumerate(case for case in airload_cases(rotor) if case.name not in flown):
@@ -218,18 +274,33 @@ def measured_conditions(rotor: str) -> tuple[MeasuredCondition, ...]:
 def _condition(test: str, label: str, design: Design) -> MeasuredCondition:
     here = design.condition
     return MeasuredCondition(
-        test, label, here.advance_ratio, stand_of(design), here.mass, here.altitude, design.pitch_per_rev
+        test,
+        label,
+        here.advance_ratio,
+        stand_of(design),
+        here.mass,
+        here.altitude,
+        design.pitch_per_rev,
     )
 
 
 def condition_of(rotor: str, case: str) -> MeasuredCondition | None:
     """The measured condition of a flight or of airloads, by the name of the case."""
     label = _CASES.get(case, ("", f"{case}:"))[1]
-    return next((condition for condition in measured_conditions(rotor) if condition.label.startswith(label)), None)
+    return next(
+        (
+            condition
+            for condition in measured_conditions(rotor)
+            if condition.label.startswith(label)
+        ),
+        None,
+    )
 
 
 def opening(conditions: Sequence[MeasuredCondition]) -> MeasuredCondition:
-    return next((condition for condition in conditions if condition.first), conditions[len(conditions) // 2])
+    return next(
+        (condition for condition in conditions if condition.first), conditions[len(conditions) // 2]
+    )
 
 
 def first_condition(rotor: str) -> MeasuredCondition | None:
@@ -250,10 +321,21 @@ def tested(aircraft: Aircraft) -> tuple[float, StandInputs]:
 def place_of(solution: Solution) -> dict[str, float]:
     """Where a solution is among measured points: what these may be given by, in their units."""
     theta, mu = math.degrees(solution.controls.collective), solution.design.condition.advance_ratio
-    return {"mu": mu, "ct": solution.ct, "ct_over_sigma": solution.ct_over_sigma, "collective_deg": theta}
+    return {
+        "mu": mu,
+        "ct": solution.ct,
+        "ct_over_sigma": solution.ct_over_sigma,
+        "collective_deg": theta,
+    }
 
 
-SHORT = {"mu": "µ", "ct": "CT", "ct_over_sigma": "CT/σ", "shaft_tilt_deg": "tilt", "collective_deg": "collective"}
+SHORT = {
+    "mu": "µ",
+    "ct": "CT",
+    "ct_over_sigma": "CT/σ",
+    "shaft_tilt_deg": "tilt",
+    "collective_deg": "collective",
+}
 _CASES = {
     "BL": ("HART II", "Baseline"),
     "MN": ("HART II", "Minimum noise: 3/rev pitch"),

@@ -70,7 +70,8 @@ class History(Generic[Step]):
         if not moved:
             return False
         dragging = bool(self._moving) if self._held else moved <= self._moving and pause < PAUSE
-        if dragging and self.past and self.past[-1] == inputs:  # Back where it began: this is no step.
+        # Back where it began: this is no step.
+        if dragging and self.past and self.past[-1] == inputs:
             self.present, self.future, self._moving = self.past.pop(), self._undone, frozenset()
             return False
         if not dragging:
@@ -142,11 +143,18 @@ class PowerTracker:
     @property
     def change(self) -> float | None:
         """Total power now less that before the grab [W]; None when nothing has been moved yet."""
-        return None if self.reference is None or self._power is None else self._power - self.reference
+        return (
+            None if self.reference is None or self._power is None else self._power - self.reference
+        )
 
     def grab(self) -> None:
         """A pointer went down: what follows is one grab until `release`, however long it rests."""
-        self.reference, self._moving, self._held, self._by_hand = self._power, frozenset(), True, True
+        self.reference, self._moving, self._held, self._by_hand = (
+            self._power,
+            frozenset(),
+            True,
+            True,
+        )
 
     def release(self) -> None:
         """The pointer went up; the change stays until the next grab."""
@@ -158,7 +166,8 @@ class PowerTracker:
             self._clear()  # The powers of two rotors are not compared.
         if self._inputs is None:
             self._inputs, self._power = inputs, power
-            if self._held:  # Grabbed before the new design had a power: it counts from the first one known.
+            # Grabbed before the new design had a power: it counts from the first one known.
+            if self._held:
                 self.reference = power
             return self.change
         if not self._by_hand:

@@ -33,7 +33,10 @@ def adding(values: Sequence[float], digits: int = 0) -> list[float]:
     left = round(sum(scaled)) - sum(whole)
     step = 1 if left > 0 else -1
     for _ in range(abs(left)):
-        k = min(range(len(whole)), key=lambda k: (abs(scaled[k]) < 0.5, abs(whole[k] + step - scaled[k])))
+        k = min(
+            range(len(whole)),
+            key=lambda k: (abs(scaled[k]) < 0.5, abs(whole[k] + step - scaled[k])),
+        )
         whole[k] += step
     return [value / 10.0**digits for value in whole]
 
@@ -75,12 +78,20 @@ def shown(row: Quantity, value: float, units: "Units") -> float:
 
 def slider_input(row: Quantity, place: float, units: "Units") -> float:
     """The input, in the unit of its name, that a place on the slider means, to nine decimals."""
-    return place if row.aviation is None else round(place * form_of(row, units).size / row.input_size, 9)
+    return (
+        place
+        if row.aviation is None
+        else round(place * form_of(row, units).size / row.input_size, 9)
+    )
 
 
 WATT, KILOWATT, HORSEPOWER = Unit("W", 1.0), Unit("kW", 1e3), Unit("hp", 745.699872)
 """[W]; the mechanical horsepower, 550 ft·lbf/s."""
-METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = Unit("m/s", 1.0), Unit("km/h", 1.0 / 3.6), Unit("kt", units.KNOT)
+METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = (
+    Unit("m/s", 1.0),
+    Unit("km/h", 1.0 / 3.6),
+    Unit("kt", units.KNOT),
+)
 KILOGRAM, TONNE, POUND = Unit("kg", 1.0), Unit("t", 1e3), Unit("lb", 0.45359237)
 METRE, FOOT = Unit("m", 1.0), Unit("ft", 0.3048)
 FOOT_PER_MINUTE = Unit("ft/min", 0.3048 / 60.0)
@@ -135,12 +146,26 @@ class Units:
         """A speed [m/s] in all three units; `hover` for zero."""
         if value == 0.0:
             return "hover"
-        return " · ".join(unit.text(value, 1 if unit is METRE_PER_SECOND else 0) for unit in self.speed)
+        return " · ".join(
+            unit.text(value, 1 if unit is METRE_PER_SECOND else 0) for unit in self.speed
+        )
 
 
-SI = Units("SI", (KILOWATT, HORSEPOWER), (KILOMETRE_PER_HOUR, METRE_PER_SECOND, KNOT), TONNE, METRE, METRE_PER_SECOND)
+SI = Units(
+    "SI",
+    (KILOWATT, HORSEPOWER),
+    (KILOMETRE_PER_HOUR, METRE_PER_SECOND, KNOT),
+    TONNE,
+    METRE,
+    METRE_PER_SECOND,
+)
 AVIATION = Units(
-    "Aviation", (HORSEPOWER, KILOWATT), (KNOT, KILOMETRE_PER_HOUR, METRE_PER_SECOND), POUND, FOOT, FOOT_PER_MINUTE
+    "Aviation",
+    (HORSEPOWER, KILOWATT),
+    (KNOT, KILOMETRE_PER_HOUR, METRE_PER_SECOND),
+    POUND,
+    FOOT,
+    FOOT_PER_MINUTE,
 )
 UNITS = {units.title: units for units in (SI, AVIATION)}
 _SMALL = {title: replace(units, power=(WATT, HORSEPOWER)) for title, units in UNITS.items()}

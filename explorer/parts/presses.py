@@ -79,14 +79,37 @@ class WavePress(_Fields):
 
 _ALONE = (
     *("pin", "swap", "back", "undo", "redo", "play", "apply", "discard"),
-    *("halt", "nearest", "aim", "taken", "beat", "game_link", "game_take", "game_end", "feasible", "unstall"),
+    *(
+        "halt",
+        "nearest",
+        "aim",
+        "taken",
+        "beat",
+        "game_link",
+        "game_take",
+        "game_end",
+        "feasible",
+        "unstall",
+    ),
 )
 """Presses whose names say it all: what comes with them is not read."""
 PRESSES: dict[str, Any] = {
     **dict.fromkeys(_ALONE),
     **dict.fromkeys(("along", "hold", "seen"), bool),
     **dict.fromkeys(
-        ("field", "region", "mode", "drawer", "task", "opened", "rotor", "flown", "default", "kind"), _Label
+        (
+            "field",
+            "region",
+            "mode",
+            "drawer",
+            "task",
+            "opened",
+            "rotor",
+            "flown",
+            "default",
+            "kind",
+        ),
+        _Label,
     ),
     **dict.fromkeys(("story", "guess", "stop", "dial_front"), _Index),
     **dict.fromkeys(("grab_at", "twist_by_hand"), _Radius),

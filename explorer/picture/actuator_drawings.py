@@ -76,7 +76,11 @@ def _plies(installed: InstalledActuator, rotor: Rotor) -> list[BladePart]:
             normal /= np.maximum(np.hypot(normal[..., 0], normal[..., 1]), 1e-12)[..., None]
             # Towards the outside: up on the upper side; the line runs aft, to −y.
             normal *= -1.0 if side == "upper" else 1.0
-            parts.append(BladePart("driven", segment, r, lines + far * normal, lines + PLY_CLEARANCE * normal))
+            parts.append(
+                BladePart(
+                    "driven", segment, r, lines + far * normal, lines + PLY_CLEARANCE * normal
+                )
+            )
     return parts
 
 
@@ -86,13 +90,19 @@ def _tubes(installed: InstalledActuator, rotor: Rotor) -> list[BladePart]:
     circle = min(0.5 * installed.actuator.depth(installed.placement), 0.02) * np.stack(
         (np.cos(angle), np.sin(angle)), 1
     )
-    rings = [(segment, r, np.broadcast_to(circle, (len(r), 21, 2))) for segment, r in _driven(installed)]
+    rings = [
+        (segment, r, np.broadcast_to(circle, (len(r), 21, 2))) for segment, r in _driven(installed)
+    ]
     return [BladePart("driven", segment, r, outer, 0.8 * outer) for segment, r, outer in rings]
 
 
 def _whole_skin(installed: InstalledActuator, rotor: Rotor) -> list[BladePart]:
     r = stations((rotor.blade.root_cutout, 1.0), 32)
-    return [BladePart("driven", 0, r, 1.012 * np.stack([section_ring(rotor, float(at), RING) for at in r]))]
+    return [
+        BladePart(
+            "driven", 0, r, 1.012 * np.stack([section_ring(rotor, float(at), RING) for at in r])
+        )
+    ]
 
 
 def _by_sign(share: float) -> Glow:

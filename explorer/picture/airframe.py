@@ -23,7 +23,14 @@ _LEAST_HINGE = 0.30
 """A teetering rotor's hub still has arms this long [m, at that radius]."""
 _ABSORBERS = ("UH-60A",)
 """Rotors with a bifilar vibration absorber above the hub."""
-_SWASHPLATE = [[0.0, -0.63], [0.38, -0.63], [0.40, -0.58], [0.38, -0.52], [0.20, -0.49], [0.0, -0.49]]
+_SWASHPLATE = [
+    [0.0, -0.63],
+    [0.38, -0.63],
+    [0.40, -0.58],
+    [0.38, -0.52],
+    [0.20, -0.49],
+    [0.0, -0.49],
+]
 
 
 def size(radius: float) -> float:
@@ -46,13 +53,22 @@ def rotor_head(rotor: Rotor) -> Mesh:
 
 def mast(radius: float) -> Mesh:
     """The shaft below the hub of a rotor of this radius [m]."""
-    return revolved([[0.0, -1.3], [0.21, -1.3], [0.17, -0.75], [0.13, -0.09], [0.0, -0.09]], 28).scaled(size(radius))
+    return revolved(
+        [[0.0, -1.3], [0.21, -1.3], [0.17, -0.75], [0.13, -0.09], [0.0, -0.09]], 28
+    ).scaled(size(radius))
 
 
 def _hub(hinge: float) -> Mesh:
     """A plate with a raised cap."""
     rim = 0.82 * hinge
-    outline = [[0.0, -0.12], [rim, -0.12], [1.02 * rim, -0.05], [1.02 * rim, 0.05], [0.8 * rim, 0.10], [0.17, 0.14]]
+    outline = [
+        [0.0, -0.12],
+        [rim, -0.12],
+        [1.02 * rim, -0.05],
+        [1.02 * rim, 0.05],
+        [0.8 * rim, 0.10],
+        [0.17, 0.14],
+    ]
     return revolved([*outline, [0.15, 0.24], [0.0, 0.24]])
 
 
@@ -76,7 +92,10 @@ def _absorber(blades: int) -> list[Mesh]:
     for k in range(blades):
         psi = 2.0 * math.pi * (k + 0.5) / blades
         out = np.array([math.cos(psi), math.sin(psi), 0.0])
-        start, end = 0.10 * out + np.array([0.0, 0.0, 0.21]), 0.47 * out + np.array([0.0, 0.0, 0.21])
+        start, end = (
+            0.10 * out + np.array([0.0, 0.0, 0.21]),
+            0.47 * out + np.array([0.0, 0.0, 0.21]),
+        )
         parts.append(tube(start, end, 0.05, 0.035))
         parts.append(tube(end - rise, end + rise, 0.085))
     return parts
@@ -111,10 +130,16 @@ def airframe(rotor: Rotor, tail: TailRotor | None = None) -> Airframe:
     parts, ground = _shipped()
     scale = size(rotor.radius)
     if rotor.name == "UH-60A":
-        body, glass, black = (parts[f"uh60a-{part}"].scaled(scale) for part in ("body", "glass", "dark"))
+        body, glass, black = (
+            parts[f"uh60a-{part}"].scaled(scale) for part in ("body", "glass", "dark")
+        )
         return Airframe(body, glass, black, scale * ground["uh60a"])
     wheels = rotor.radius > _WHEELS_ABOVE_M
-    body = joined_meshes((parts["generic-body"], parts["generic-legs"])) if wheels else parts["generic-body"]
+    body = (
+        joined_meshes((parts["generic-body"], parts["generic-legs"]))
+        if wheels
+        else parts["generic-body"]
+    )
     *gear, blade = _open_tail_rotor(parts["generic-wheels" if wheels else "generic-skids"])
     own = toml_asset("airframes.toml").get(rotor.name, {})
     end = own.get("tail_m", tail.arm + scale * (_END - _TAIL) if tail else scale * _END) / scale
@@ -128,14 +153,23 @@ def airframe(rotor: Rotor, tail: TailRotor | None = None) -> Airframe:
     dark = [fitted(part) for part in gear]
     if tail is not None:
         dark += _tail_rotor(blade, tail, scale)
-    return Airframe(fitted(body), fitted(parts["generic-glass"]), joined_meshes(dark), scale * ground["generic"])
+    return Airframe(
+        fitted(body), fitted(parts["generic-glass"]), joined_meshes(dark), scale * ground["generic"]
+    )
 
 
 def _open_tail_rotor(dark: Mesh) -> list[Mesh]:
     """Gear, part by part, and last one blade of the tail rotor; its hub and other blades are left out."""
     parts = trimesh.Trimesh(dark.vertices, dark.faces, process=False).split(only_watertight=False)
-    meshes = [Mesh(np.asarray(part.vertices, dtype=float), np.asarray(part.faces, dtype=np.uint32)) for part in parts]
-    turning = [mesh for mesh in meshes if mesh.vertices[:, 0].min() > 0.8 * _TAIL and mesh.vertices[:, 1].min() > 0.3]
+    meshes = [
+        Mesh(np.asarray(part.vertices, dtype=float), np.asarray(part.faces, dtype=np.uint32))
+        for part in parts
+    ]
+    turning = [
+        mesh
+        for mesh in meshes
+        if mesh.vertices[:, 0].min() > 0.8 * _TAIL and mesh.vertices[:, 1].min() > 0.3
+    ]
     blade = max(turning, key=lambda mesh: mesh.vertices[:, 0].max())
     return [*(mesh for mesh in meshes if mesh not in turning), blade]
 
@@ -148,7 +182,9 @@ def _tail_rotor(blade: Mesh, tail: TailRotor, scale: float) -> list[Mesh]:
     factor = tail.radius / np.linalg.norm(out, axis=1).max()
     blades = list[Mesh]()
     for k in range(tail.blades):
-        turn = trimesh.transformations.rotation_matrix(2.0 * math.pi * k / tail.blades, [0.0, 1.0, 0.0])[:3, :3]
+        turn = trimesh.transformations.rotation_matrix(
+            2.0 * math.pi * k / tail.blades, [0.0, 1.0, 0.0]
+        )[:3, :3]
         blades.append(Mesh(to + factor * out @ turn.T, blade.faces))
     across = 0.11 * tail.radius * np.array([0.0, 1.0, 0.0])
     return [tube(to - across, to + across, 0.1 * tail.radius), *blades]

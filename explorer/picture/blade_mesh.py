@@ -65,7 +65,9 @@ def ring_faces(rings: int, points: int) -> NDArray[np.intp]:
     start = np.arange(rings - 1)[:, None] * points
     a = (start + np.arange(points)).ravel()
     b = (start + (np.arange(points) + 1) % points).ravel()
-    return np.concatenate((np.stack((a, b + points, b), 1), np.stack((a, a + points, b + points), 1)))
+    return np.concatenate(
+        (np.stack((a, b + points, b), 1), np.stack((a, a + points, b + points), 1))
+    )
 
 
 def _volume(vertices: Array, faces: Faces) -> float:
@@ -174,7 +176,9 @@ def blade_shape(rotor: Rotor, detail: LoftDetail = PAGE) -> BladeShape:
     angle = 2.0 * math.pi * (np.arange(points) + 0.5) / points
     root = section_ring(rotor, cutout, points)
     # The circle runs as the outlines do: from the trailing edge over the upper side to the nose.
-    circle = _SHANK_RADIUS * rotor.reference_chord * np.stack((-np.cos(angle), np.sin(angle)), axis=1)
+    circle = (
+        _SHANK_RADIUS * rotor.reference_chord * np.stack((-np.cos(angle), np.sin(angle)), axis=1)
+    )
     fairing = np.clip((shank - shank[1]) / (cutout - shank[1]), 0.0, 1.0)
     fairing = fairing**2 * (3.0 - 2.0 * fairing)
     rings = [(1.0 - f) * circle + f * root for f in fairing]
@@ -188,7 +192,9 @@ def blade_shape(rotor: Rotor, detail: LoftDetail = PAGE) -> BladeShape:
 def section_ring(rotor: Rotor, r: float, points: int) -> Array:
     """The section at r/R about its quarter chord, (y, z) [m], shape (points, 2); y to the leading edge, untwisted."""
     inner, outer, weight = rotor.blade.section_at(r)
-    at_inner, at_outer = (blade_axes_outline(rotor.blade.installed(name), points) for name in (inner, outer))
+    at_inner, at_outer = (
+        blade_axes_outline(rotor.blade.installed(name), points) for name in (inner, outer)
+    )
     return float(rotor.blade.chord(r)) * ((1.0 - weight) * at_inner + weight * at_outer)
 
 
@@ -223,7 +229,12 @@ def blade_vertices(shape: BladeShape, twist: TwistLaw, exaggeration: float = 1.0
 
 
 def overlay_form(
-    shape: BladeShape, overlay: TwistLaw, twist: TwistLaw, exaggeration: float, least: float, bent: Array | None = None
+    shape: BladeShape,
+    overlay: TwistLaw,
+    twist: TwistLaw,
+    exaggeration: float,
+    least: float,
+    bent: Array | None = None,
 ) -> BladeForm:
     """The straight blade with twist `overlay`, shown only where it differs from one with `twist`, and `bent` where
     given.
@@ -239,7 +250,9 @@ def overlay_form(
     return BladeForm(shape.pitch(overlay, exaggeration), size=size)
 
 
-def overlay_segments(rotor: Rotor, overlay: TwistLaw, twist: TwistLaw, exaggeration: float, least: float) -> Array:
+def overlay_segments(
+    rotor: Rotor, overlay: TwistLaw, twist: TwistLaw, exaggeration: float, least: float
+) -> Array:
     """The blade's leading and trailing edge as lines, where the twists differ by `least` [rad]; (n, 2, 3).
 
     A section closes each stretch at both ends.
@@ -295,7 +308,9 @@ _EDGE_POINTS = 40
 _OUTLINE_POINTS = 25
 
 
-def inset_sections(rotor: Rotor, twist: TwistLaw, overlay: TwistLaw | None, exaggeration: float) -> InsetBlade:
+def inset_sections(
+    rotor: Rotor, twist: TwistLaw, overlay: TwistLaw | None, exaggeration: float
+) -> InsetBlade:
     """What the page draws the inset from, about 4 kB: eight sections, and edges between them."""
     r, cuts = inset_places(rotor)
     places = np.concatenate((r, cuts, [REFERENCE_RADIUS]))
@@ -311,7 +326,9 @@ def inset_sections(rotor: Rotor, twist: TwistLaw, overlay: TwistLaw | None, exag
         overlay=None if behind is None else behind[: len(r)],
         cuts=[
             InsetSection(float(at), outline, angle, before)
-            for at, outline, angle, before in zip(cuts, _outlines(rotor), angles[len(r) :], other, strict=True)
+            for at, outline, angle, before in zip(
+                cuts, _outlines(rotor), angles[len(r) :], other, strict=True
+            )
         ],
     )
 
@@ -319,7 +336,9 @@ def inset_sections(rotor: Rotor, twist: TwistLaw, overlay: TwistLaw | None, exag
 def inset_places(rotor: Rotor) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """r/R along the edges, and of the sections."""
     cutout = rotor.blade.root_cutout
-    return np.linspace(cutout, 1.0, _EDGE_POINTS), np.round(cutout + (1.0 - cutout) * np.array(_SPANWISE), 2)
+    return np.linspace(cutout, 1.0, _EDGE_POINTS), np.round(
+        cutout + (1.0 - cutout) * np.array(_SPANWISE), 2
+    )
 
 
 @lru_cache(maxsize=4)

@@ -88,8 +88,12 @@ class CameraShot:
     def fit(self, radius: float, aspect: float) -> Camera:
         """For a rotor of this radius [m] and a canvas of this width over height, without cards."""
         backward = direction(math.radians(self.azimuth_deg), math.radians(self.elevation_deg))
-        corners = np.array([[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)])
-        return framed(radius * (np.array(self.centre) + corners * np.array(self.half)), backward, aspect)
+        corners = np.array(
+            [[x, y, z] for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]
+        )
+        return framed(
+            radius * (np.array(self.centre) + corners * np.array(self.half)), backward, aspect
+        )
 
 
 def direction(azimuth: float, elevation: float) -> Array:
@@ -126,11 +130,19 @@ def fit(
     else:
         psi = np.linspace(0.0, 2.0 * math.pi, 73)  # The rim with the words round it.
         points = 1.2 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
-        backward = direction(math.radians(90.0) if view == "side" else 0.0, _ELEVATION.get(view, 0.0))
-        if view in ("side", "3d"):  # The airframe, coning and tilt need height where the disk has none.
+        backward = direction(
+            math.radians(90.0) if view == "side" else 0.0, _ELEVATION.get(view, 0.0)
+        )
+        # The airframe, coning and tilt need height where the disk has none.
+        if view in (
+            "side",
+            "3d",
+        ):
             more = [[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]]
             points = np.concatenate((points, radius * np.array(more)))
-    return between_cards(framed(points, backward if towards is None else towards, aspect / cover.free), cover)
+    return between_cards(
+        framed(points, backward if towards is None else towards, aspect / cover.free), cover
+    )
 
 
 def seen_at(camera: Camera, points: Array, aspect: float, view: float = FIELD_OF_VIEW) -> Array:
@@ -227,7 +239,9 @@ def riding(solution: Solution, out: float, psi: float) -> Camera:
     flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
     section = np.array([out, 0.0, (out - hinge) * math.sin(flap)])
     shaft = composed_rotation(rotor_pose(controls).wxyz, axis_rotation(2, psi))
-    eye, look = (rotate(shaft, section + rotor.radius * np.array(place)) for place in (RIDE_EYE, RIDE_LOOK))
+    eye, look = (
+        rotate(shaft, section + rotor.radius * np.array(place)) for place in (RIDE_EYE, RIDE_LOOK)
+    )
     return Camera(eye, look)
 
 
@@ -254,7 +268,9 @@ def pick_blade(
         vertices = flown_form(solution, view, math.radians(psi_deg)).vertices(shape)
         distance = _first_hit(vertices[shape.faces], start, along)
         if distance < nearest:
-            r = (float((start + distance * along)[0]) + hinge) / rotor.radius  # Sections stand across the blade's x.
+            r = (
+                float((start + distance * along)[0]) + hinge
+            ) / rotor.radius  # Sections stand across the blade's x.
             nearest, found = distance, (min(max(r, cutout), 1.0), psi_deg)
     return found
 
@@ -264,7 +280,11 @@ def _first_hit(triangles: Array, start: Array, along: Array) -> float:
 
     Möller and Trumbore, Journal of Graphics Tools 2 (1997) 21.
     """
-    corner, one, other = triangles[:, 0], triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0]
+    corner, one, other = (
+        triangles[:, 0],
+        triangles[:, 1] - triangles[:, 0],
+        triangles[:, 2] - triangles[:, 0],
+    )
     across = np.cross(along, other)
     with np.errstate(divide="ignore", invalid="ignore"):  # Triangles seen edge-on.
         scale = 1.0 / np.einsum("ij,ij->i", one, across)

@@ -83,11 +83,15 @@ def _raster(inner: float, size: int, radii: int, azimuths: int) -> PixelGrid:
     starboard, aft = np.meshgrid(coordinate, coordinate)
     r = np.hypot(aft, starboard)
     pixel = 2.0 / (size - 2)
-    coverage = np.clip((1.0 - r) / pixel + 0.5, 0.0, 1.0) * np.clip((r - inner) / pixel + 0.5, 0.0, 1.0)
+    coverage = np.clip((1.0 - r) / pixel + 0.5, 0.0, 1.0) * np.clip(
+        (r - inner) / pixel + 0.5, 0.0, 1.0
+    )
     quarters = np.rint(4.0 * coverage).astype(np.uint16).ravel()
     covered = np.flatnonzero(quarters)
     row = np.clip(np.rint((r - inner) / (1.0 - inner) * (radii - 1)), 0, radii - 1).astype(np.intp)
-    column = np.rint(np.arctan2(starboard, aft) / (2.0 * np.pi) * azimuths).astype(np.intp) % azimuths
+    column = (
+        np.rint(np.arctan2(starboard, aft) / (2.0 * np.pi) * azimuths).astype(np.intp) % azimuths
+    )
     stripe = (((aft - starboard) * _STRIPES) % 1.0 < _STRIPE_SHARE).ravel()[covered]
     level = quarters[covered]
     kind = np.where(level == 4, np.where(stripe, 1, 0), 1 + level).astype(np.uint16)
@@ -142,7 +146,14 @@ def levels_of(values: Array, low: float, high: float, levels: int) -> Bytes:
 
 
 @_compile
-def paint(codes: Bytes, index: Places, covered: Places, kind: NDArray[np.uint16], entries: Bytes, pixels: int) -> Bytes:
+def paint(
+    codes: Bytes,
+    index: Places,
+    covered: Places,
+    kind: NDArray[np.uint16],
+    entries: Bytes,
+    pixels: int,
+) -> Bytes:
     """A picture of so many pixels: `covered` ones get the entry of their kind for the code at their index."""
     image, flat = np.zeros(pixels, np.uint8), codes.ravel()
     for k in range(len(covered)):
@@ -160,7 +171,9 @@ def palette(scheme: Scheme, ink: DiskInk | None) -> Bytes:
     entries[1 : 1 + _LEVELS, :3] = colours
     entries[1 : 1 + _LEVELS, 3] = round(255 * ink.opacity)
     stripe = np.array(ink.stall, dtype=np.float64)
-    entries[1 + _HATCHED : 1 + _HATCHED + _LEVELS, :3] = (0.2 * colours + 0.8 * stripe).astype(np.uint8)
+    entries[1 + _HATCHED : 1 + _HATCHED + _LEVELS, :3] = (0.2 * colours + 0.8 * stripe).astype(
+        np.uint8
+    )
     entries[1 + _HATCHED : 1 + _HATCHED + _LEVELS, 3] = 250
     entries[_VOID] = (*VOID, round(255 * ink.opacity))
     entries[_REVERSE] = (*ink.reverse_flow, 238)
@@ -198,7 +211,12 @@ def encode_png(pixels: Bytes, entries: Bytes, effort: int = 1) -> bytes:
 
 def _chunk(kind: bytes, content: bytes) -> bytes:
     """Length, kind, content and check sum."""
-    return struct.pack(">I", len(content)) + kind + content + struct.pack(">I", zlib.crc32(content, zlib.crc32(kind)))
+    return (
+        struct.pack(">I", len(content))
+        + kind
+        + content
+        + struct.pack(">I", zlib.crc32(content, zlib.crc32(kind)))
+    )
 
 
 def tinted_png(mask: Bytes, colour: Rgb, strength: float = 1.0) -> bytes:
@@ -251,16 +269,24 @@ class _Ring:
         self._draw.ellipse(self._box(r), outline=strength, width=self._pixels(width))
 
     def tick(self, degrees: float, first: float, last: float, width: float, strength: int) -> None:
-        self._draw.line([self._at(degrees, first), self._at(degrees, last)], fill=strength, width=self._pixels(width))
+        self._draw.line(
+            [self._at(degrees, first), self._at(degrees, last)],
+            fill=strength,
+            width=self._pixels(width),
+        )
 
     def arrow(self, first: float, last: float, r: float, width: float, strength: int) -> None:
         """An arc with a head at its later end."""
         # Pillow counts clockwise from +x; the azimuth runs counter-clockwise from straight down.
-        self._draw.arc(self._box(r), 90.0 - last, 90.0 - first, fill=strength, width=self._pixels(width))
+        self._draw.arc(
+            self._box(r), 90.0 - last, 90.0 - first, fill=strength, width=self._pixels(width)
+        )
         head = [self._at(last, r - 0.016), self._at(last, r + 0.016), self._at(last + 2.2, r)]
         self._draw.polygon(head, fill=strength)
 
-    def word(self, text: str, degrees: float, r: float, height: float, outward: bool, strength: int = 245) -> None:
+    def word(
+        self, text: str, degrees: float, r: float, height: float, outward: bool, strength: int = 245
+    ) -> None:
         """Letters along a circle, their heads `outward` or towards the hub."""
         font = ImageFont.load_default(self._pixels(height))
         gap = 0.13 * height
@@ -275,7 +301,15 @@ class _Ring:
             stroke = self._pixels(0.035 * height)
             middle = (0.5 * tile.width, 0.5 * tile.height)
             pen = ImageDraw.Draw(tile)
-            pen.text(middle, letter, fill=strength, font=font, anchor="mm", stroke_width=stroke, stroke_fill=strength)
+            pen.text(
+                middle,
+                letter,
+                fill=strength,
+                font=font,
+                anchor="mm",
+                stroke_width=stroke,
+                stroke_fill=strength,
+            )
             tile = tile.rotate(at + (180.0 if outward else 0.0), Image.Resampling.BICUBIC)
             x, y = self._at(at, r)
             corner = (round(x - 0.5 * tile.width), round(y - 0.5 * tile.height))
@@ -304,7 +338,10 @@ def shadow_mask(craft: Airframe, radius: float) -> Bytes:
     unit = 0.5 * size / half
 
     def place(points: NDArray[np.float64]) -> list[tuple[float, float]]:
-        return [(0.5 * size + y * unit, 0.5 * size + (x - SHADOW_CENTRE * radius) * unit) for x, y in points]
+        return [
+            (0.5 * size + y * unit, 0.5 * size + (x - SHADOW_CENTRE * radius) * unit)
+            for x, y in points
+        ]
 
     disk, body = Image.new("L", (size, size), 0), Image.new("L", (size, size), 0)
     (left, top), (right, bottom) = place(np.array([[-radius, -radius], [radius, radius]]))

@@ -12,7 +12,14 @@ from numpy.typing import NDArray
 from explorer.colours import VOID, DiskInk, Scheme, colour_map, greyed
 from explorer.picture.disk_image import half_width
 from explorer.picture.fields import Field
-from explorer.picture.polar import CLEAR_OF_REVERSE, NO_MARKS, DrawnSolution, RegionMarks, divergence_margin, polar_grid
+from explorer.picture.polar import (
+    CLEAR_OF_REVERSE,
+    NO_MARKS,
+    DrawnSolution,
+    RegionMarks,
+    divergence_margin,
+    polar_grid,
+)
 from rotor import Solution
 
 _GRID = 72, 240
@@ -24,7 +31,10 @@ _LIMITS = {"u_t": 0.1, "attached": 0.1, "diverging": 0.05}
 
 
 def disk_numbers(
-    solution: Solution, field: Field, colour_range: tuple[float, float], marks: RegionMarks = NO_MARKS
+    solution: Solution,
+    field: Field,
+    colour_range: tuple[float, float],
+    marks: RegionMarks = NO_MARKS,
 ) -> dict[str, Any]:
     """What the page draws a disk from: 1…255 over the colour range, 0 where the field does not exist; margins."""
     grid = polar_grid(solution.disk, *_GRID)
@@ -56,9 +66,18 @@ def _margin(name: str, values: NDArray[np.float32]) -> str:
 
 
 def _text(numbers: NDArray[Any]) -> str:
-    steps = np.diff(np.rint(numbers).astype(np.uint8).ravel(), prepend=np.uint8(0)).view(np.int8).astype(np.int16)
+    steps = (
+        np.diff(np.rint(numbers).astype(np.uint8).ravel(), prepend=np.uint8(0))
+        .view(np.int8)
+        .astype(np.int16)
+    )
     # 0, −1, 1, −2, … from the first character that no string needs to escape, but for one.
-    return (ord("#") + np.where(steps < 0, -2 * steps - 1, 2 * steps)).astype("<u2").tobytes().decode("utf-16-le")
+    return (
+        (ord("#") + np.where(steps < 0, -2 * steps - 1, 2 * steps))
+        .astype("<u2")
+        .tobytes()
+        .decode("utf-16-le")
+    )
 
 
 def disk_ink(scheme: Scheme, ink: DiskInk, faded: bool) -> dict[str, Any]:

@@ -138,7 +138,11 @@ class Probe:
         if self.u_t < 0.0:
             return FlowRegion.IDLE if self.idle else FlowRegion.REVERSE
         margin = self.stall_margin
-        if (margin is not None and margin < 0.0) if self.unsteady is None else self.unsteady.separation < STALLED:
+        if (
+            (margin is not None and margin < 0.0)
+            if self.unsteady is None
+            else self.unsteady.separation < STALLED
+        ):
             return FlowRegion.STALLED
         return FlowRegion.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else FlowRegion.ATTACHED
 
@@ -155,9 +159,14 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     psi = psi % (2.0 * math.pi)
     at = _GridPoint(disk, r, psi)
     speed = rotor.tip_speed
-    theta, u_t, u_p, mach = (at.reaching(field) for field in (disk.theta, disk.u_t, disk.u_p, disk.mach))
+    theta, u_t, u_p, mach = (
+        at.reaching(field) for field in (disk.theta, disk.u_t, disk.u_p, disk.mach)
+    )
     phi = math.atan2(u_p, u_t)
-    thrust, pull = design.thrust_per_metre * at.held(disk.dct), design.thrust_per_metre * at.held(disk.dcq)
+    thrust, pull = (
+        design.thrust_per_metre * at.held(disk.dct),
+        design.thrust_per_metre * at.held(disk.dcq),
+    )
     parts = rotor.blade.mixture(r, design.reynolds_per_metre)
     if not design.models.stall:
         parts = tuple((replace(one, table=unstalled(one.table)), share) for one, share in parts)
@@ -204,13 +213,19 @@ def _around(disk: DiskFields, unsteady: Unsteady, at: "_GridPoint", r: float) ->
     loop = np.empty((2, len(disk.psi)))
     for k, psi in enumerate(disk.psi.tolist()):
         there = _GridPoint(disk, r, psi)
-        loop[:, k] = (there.held(disk.alpha), there.held(disk.cl)) if there.reaching(disk.u_t) > 0.0 else math.nan
+        loop[:, k] = (
+            (there.held(disk.alpha), there.held(disk.cl))
+            if there.reaching(disk.u_t) > 0.0
+            else math.nan
+        )
     return UnsteadyProbe(at.held(unsteady.separation), loop)
 
 
 def outline(section: SectionBlend) -> Array:
     """The true outline, blended as the blade is; (y, z) in reference chords about the quarter chord."""
-    return sum((share * blade_axes_outline(part, _OUTLINE) for part, share in section.parts), np.zeros(()))
+    return sum(
+        (share * blade_axes_outline(part, _OUTLINE) for part, share in section.parts), np.zeros(())
+    )
 
 
 def where(psi: float) -> str:
@@ -234,7 +249,9 @@ class _GridPoint:
         row = min(max(int(np.searchsorted(disk.r, r, "right")) - 1, 0), len(disk.r) - 2)
         along = row + (r - float(disk.r[row])) / float(disk.r[row + 1] - disk.r[row])
         # A station met to rounding is that station: what stands there is read, not blended.
-        around, along = (float(round(x)) if abs(x - round(x)) < 1e-9 else x for x in (around, along))
+        around, along = (
+            float(round(x)) if abs(x - round(x)) < 1e-9 else x for x in (around, along)
+        )
         before = math.floor(around)
         self._columns = before % n, (before + 1) % n
         self._late = around - before
@@ -272,7 +289,10 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
     around = [probe(solution, r, 2.0 * math.pi * k / AZIMUTHS) for k in range(AZIMUTHS)]
     ahead = np.array([here.u_t >= 0.0 for here in around])
     # From the edge that meets the flow.
-    angle = [here.alpha if here.u_t >= 0.0 else math.remainder(here.alpha - math.pi, 2.0 * math.pi) for here in around]
+    angle = [
+        here.alpha if here.u_t >= 0.0 else math.remainder(here.alpha - math.pi, 2.0 * math.pi)
+        for here in around
+    ]
     alpha = np.degrees(angle)
     cl = np.array([here.cl for here in around])
     reach = max(_LEAST_REACH, 1.15 * float(np.abs(alpha[ahead]).max(initial=0.0)))
@@ -282,9 +302,20 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
         for here, front in zip(around, ahead, strict=True)
     ]
     highest = max(float(np.abs(cl).max()), *(float(np.abs(curve).max()) for curve in curves))
-    path = Line("", np.append(alpha, alpha[0]), np.append(np.where(ahead, cl, np.nan), np.nan), THIS, width=1.2)
+    path = Line(
+        "",
+        np.append(alpha, alpha[0]),
+        np.append(np.where(ahead, cl, np.nan), np.nan),
+        THIS,
+        width=1.2,
+    )
     across = Axis("α", (-reach, reach), unit="°")
-    chart = Chart("Lift curve at this Mach number", across, Axis("C_l", (-1.1 * highest, 1.1 * highest)), (path,))
+    chart = Chart(
+        "Lift curve at this Mach number",
+        across,
+        Axis("C_l", (-1.1 * highest, 1.1 * highest)),
+        (path,),
+    )
     return RidePart(
         r=r,
         psi=psi_deg,
@@ -303,8 +334,13 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
         lift=_rounded([here.lift / 1e3 for here in around], 3),
         where=[where(here.psi) for here in around],
         region=[here.region.value for here in around],
-        margin=[None if here.stall_margin is None else number(math.degrees(here.stall_margin), 1) for here in around],
-        filled=[None if here.stall_share is None else round(here.stall_share, 3) for here in around],
+        margin=[
+            None if here.stall_margin is None else number(math.degrees(here.stall_margin), 1)
+            for here in around
+        ],
+        filled=[
+            None if here.stall_share is None else round(here.stall_share, 3) for here in around
+        ],
         angles=_rounded(angles),
         curves=[_rounded(curve, 3) for curve in curves],
         chart=drawn_chart(chart),

@@ -90,7 +90,9 @@ def _m2cn(drawn: DrawnSolution, grid: PolarGrid) -> Array:
     return grid.refine(disk.mach**2 * (disk.cl * np.cos(disk.alpha) + disk.cd * np.sin(disk.alpha)))
 
 
-def _per_metre(unit: str, of: Callable[[DiskFields], Array]) -> Callable[[DrawnSolution, PolarGrid], Array]:
+def _per_metre(
+    unit: str, of: Callable[[DiskFields], Array]
+) -> Callable[[DrawnSolution, PolarGrid], Array]:
     """Samples a force [kN/m] or power [kW/m] per length of one blade; `unit`: field of a design, what 1 stands for."""
 
     def sample(drawn: DrawnSolution, grid: PolarGrid) -> Array:
@@ -142,7 +144,9 @@ def _unsteady(name: str) -> Callable[[DrawnSolution, PolarGrid], Array]:
         unsteady = drawn.disk.unsteady
         if unsteady is None:
             return np.zeros(grid.shape)
-        return np.clip(grid.refine(getattr(unsteady, name)), -2.0, 1.0 if name == "separation" else 2.0)
+        return np.clip(
+            grid.refine(getattr(unsteady, name)), -2.0, 1.0 if name == "separation" else 2.0
+        )
 
     return sample
 
@@ -150,21 +154,80 @@ def _unsteady(name: str) -> Callable[[DrawnSolution, PolarGrid], Array]:
 FIELDS: dict[str, Field] = {
     field.title: field
     for field in (
-        Field("Angle of attack", "°", -4.0, 14.0, "sequential", _degrees("alpha"), void_in_reverse_flow=True),
+        Field(
+            "Angle of attack",
+            "°",
+            -4.0,
+            14.0,
+            "sequential",
+            _degrees("alpha"),
+            void_in_reverse_flow=True,
+        ),
         Field("Induced inflow λi", "", -0.08, 0.08, "diverging", _refined("induced")),
         Field("Total inflow λ", "", -0.02, 0.12, "sequential", _refined("inflow")),
         Field("Mach number", "", 0.0, 0.9, "sequential", _refined("mach", 0.0)),
         Field("Lift coefficient", "", -0.4, 1.4, "sequential", _cl),
         Field("M²cn", "", -0.05, 0.25, "sequential", _m2cn),
         Field("Thrust dT/dr", "kN/m per blade", -1.0, 7.0, "sequential", _thrust, speeds=2),
-        Field("Circulation", "m²/s", -5.0, 35.0, "sequential", _circulation, void_in_reverse_flow=True, speeds=1),
+        Field(
+            "Circulation",
+            "m²/s",
+            -5.0,
+            35.0,
+            "sequential",
+            _circulation,
+            void_in_reverse_flow=True,
+            speeds=1,
+        ),
         Field("Drag dD/dr", "N/m per blade", 0.0, 400.0, "sequential", _drag, speeds=2),
         Field("Power dP/dr", "kW/m per blade", -20.0, 150.0, "sequential", _power, speeds=3),
-        Field("Induced power dP/dr", "kW/m per blade", -20.0, 80.0, "sequential", _induced_power, speeds=3),
-        Field("Profile power dP/dr", "kW/m per blade", 0.0, 100.0, "sequential", _profile_power, speeds=3),
-        Field("Stall margin", "°", -12.0, 12.0, "margin", _degrees("margin"), void_in_reverse_flow=True),
-        Field("Separation point", "x/c", 0.0, 1.0, "sequential", _unsteady("separation"), True, needs="unsteady"),
-        Field("Stall vortex C_n", "", 0.0, 0.5, "sequential", _unsteady("vortex"), True, needs="unsteady"),
+        Field(
+            "Induced power dP/dr",
+            "kW/m per blade",
+            -20.0,
+            80.0,
+            "sequential",
+            _induced_power,
+            speeds=3,
+        ),
+        Field(
+            "Profile power dP/dr",
+            "kW/m per blade",
+            0.0,
+            100.0,
+            "sequential",
+            _profile_power,
+            speeds=3,
+        ),
+        Field(
+            "Stall margin",
+            "°",
+            -12.0,
+            12.0,
+            "margin",
+            _degrees("margin"),
+            void_in_reverse_flow=True,
+        ),
+        Field(
+            "Separation point",
+            "x/c",
+            0.0,
+            1.0,
+            "sequential",
+            _unsteady("separation"),
+            True,
+            needs="unsteady",
+        ),
+        Field(
+            "Stall vortex C_n",
+            "",
+            0.0,
+            0.5,
+            "sequential",
+            _unsteady("vortex"),
+            True,
+            needs="unsteady",
+        ),
         Field("Elastic twist", "°", -4.0, 4.0, "diverging", _elastic_deg, needs="elastic_twist"),
     )
 }
@@ -201,7 +264,9 @@ def keeps_range(field: Field, values: Array, held: tuple[float, float]) -> bool:
         return True
     beyond = np.count_nonzero(values < low) + np.count_nonzero(values > high)
     fitted = fitted_range(field, values, trim=CLIPPED_SHARE)
-    return bool(beyond <= 3.0 * CLIPPED_SHARE * values.size) and (fitted[1] - fitted[0]) > 0.5 * (high - low)
+    return bool(beyond <= 3.0 * CLIPPED_SHARE * values.size) and (fitted[1] - fitted[0]) > 0.5 * (
+        high - low
+    )
 
 
 def usual_range(field: Field, rotor: Rotor) -> tuple[float, float]:
@@ -212,13 +277,17 @@ def usual_range(field: Field, rotor: Rotor) -> tuple[float, float]:
     ratio, of = rotor.reference_chord / usual.reference_chord, rotor.tip_speed / usual.tip_speed
     factor = ratio * of**field.speeds
     step = round_up(factor * (field.high - field.low) / 10.0)
-    return step * math.floor(factor * field.low / step + 1e-9), step * math.ceil(factor * field.high / step - 1e-9)
+    return step * math.floor(factor * field.low / step + 1e-9), step * math.ceil(
+        factor * field.high / step - 1e-9
+    )
 
 
 def over_range(values: Array, held: tuple[float, float]) -> tuple[bool, bool]:
     """Whether a thousandth of the values lies below a range, and above it."""
     least = 1e-3 * values.size
-    return bool(np.count_nonzero(values < held[0]) > least), bool(np.count_nonzero(values > held[1]) > least)
+    return bool(np.count_nonzero(values < held[0]) > least), bool(
+        np.count_nonzero(values > held[1]) > least
+    )
 
 
 _FIRST_DIFFERENCE = 0.1
@@ -231,7 +300,11 @@ def shown_field(view: ViewState, pinned: Solution | None) -> Field:
     """The field that the disk shows: as it is, or B − A where wanted and a design is pinned, but not while that is
     wiped over B."""
     field = FIELDS[view.field]
-    return difference(field, pinned) if view.difference and not view.wipe and pinned is not None else field
+    return (
+        difference(field, pinned)
+        if view.difference and not view.wipe and pinned is not None
+        else field
+    )
 
 
 def difference(field: Field, pinned: Solution) -> Field:
@@ -247,7 +320,9 @@ def difference(field: Field, pinned: Solution) -> Field:
         del drawn
         return _absent(field, a, grid)
 
-    name = field.title if field.title.startswith(_NAMES) else field.title[0].lower() + field.title[1:]
+    name = (
+        field.title if field.title.startswith(_NAMES) else field.title[0].lower() + field.title[1:]
+    )
     half = round_up(_FIRST_DIFFERENCE * (field.high - field.low))
     return replace(
         field,
@@ -274,4 +349,6 @@ def _absent(field: Field, a: DrawnSolution, grid: PolarGrid) -> NDArray[np.bool_
 
 def _over(pinned: Solution, grid: PolarGrid) -> PolarGrid:
     """B's points, interpolated from A's elements and azimuths, which may be others."""
-    return polar_grid(pinned.disk, len(grid.r), len(grid.psi), (float(grid.r[0]), float(grid.r[-1])))
+    return polar_grid(
+        pinned.disk, len(grid.r), len(grid.psi), (float(grid.r[0]), float(grid.r[-1]))
+    )

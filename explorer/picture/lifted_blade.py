@@ -9,9 +9,25 @@ from functools import lru_cache
 
 import numpy as np
 
-from explorer.picture.actuator_drawings import DRAWINGS, RING, SIDES, BladePart, Span, side_line, stations
+from explorer.picture.actuator_drawings import (
+    DRAWINGS,
+    RING,
+    SIDES,
+    BladePart,
+    Span,
+    side_line,
+    stations,
+)
 from explorer.picture.blade_mesh import Mesh, section_ring
-from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, between_cards, direction, framed, seen_at
+from explorer.picture.camera_views import (
+    FIELD_OF_VIEW,
+    USUAL_COVER,
+    Camera,
+    between_cards,
+    direction,
+    framed,
+    seen_at,
+)
 from explorer.picture.picture import Pose, axis_rotation, composed_rotation, rotate
 from rotor import Rotor
 from rotor.actuator import InstalledActuator
@@ -47,7 +63,9 @@ class LiftedBlade:
         """Driven stretches, root to tip."""
         numbers = sorted({part.segment for part in self.parts if part.segment >= 0})
         stations = [[part.r for part in self.parts if part.segment == number] for number in numbers]
-        return [(min(float(r[0]) for r in each), max(float(r[-1]) for r in each)) for each in stations]
+        return [
+            (min(float(r[0]) for r in each), max(float(r[-1]) for r in each)) for each in stations
+        ]
 
 
 @lru_cache(maxsize=8)
@@ -58,7 +76,11 @@ def lifted_blade(installed: InstalledActuator, rotor: Rotor) -> LiftedBlade:
     r = stations((rotor.blade.root_cutout, 1.0), 32)
     rings = np.stack([section_ring(rotor, float(at), RING) for at in r])
     drawing = DRAWINGS[type(installed.actuator)]
-    pieces = [BladePart("skin", -1, r, rings), _web(rotor, web, r), *drawing.pieces(installed, rotor)]
+    pieces = [
+        BladePart("skin", -1, r, rings),
+        _web(rotor, web, r),
+        *drawing.pieces(installed, rotor),
+    ]
     if not drawing.in_spar:
         spar = np.stack([_within(rotor, float(at), web) for at in r])
         pieces.insert(1, BladePart("spar", -1, r, spar))
@@ -69,7 +91,9 @@ def _web(rotor: Rotor, at: float, r: Array) -> BladePart:
     """The wall across the section at x/c."""
     lines = []
     for station in r:
-        top, bottom = (side_line(rotor, float(station), side, (at, at + 1e-6), 2)[0] for side in SIDES)
+        top, bottom = (
+            side_line(rotor, float(station), side, (at, at + 1e-6), 2)[0] for side in SIDES
+        )
         lines.append(bottom + np.linspace(0.0, 1.0, 3)[:, None] * (top - bottom))
     rear = np.stack(lines)
     return BladePart("web", -1, r, rear, rear + np.array([0.012, 0.0]))
@@ -136,10 +160,17 @@ def root_parts(blade: LiftedBlade, rotor: Rotor, twist: float) -> tuple[Mesh, Me
     start, end = rotor.blade.flap_hinge, rotor.blade.root_cutout
     angle = np.linspace(0.0, 2.0 * np.pi, 25)
     circle = 0.05 * np.stack((np.cos(angle), np.sin(angle)), axis=1)
-    rings = _turned(blade, np.array([start, end + 0.004]), np.stack((circle, circle)), np.full(2, twist))
+    rings = _turned(
+        blade, np.array([start, end + 0.004]), np.stack((circle, circle)), np.full(2, twist)
+    )
     hub_side = np.stack((rings[0], np.broadcast_to(rings[0].mean(axis=0), rings[0].shape)))
     corner = np.array([[-0.10, 0.052], [0.09, 0.052], [0.09, 0.10], [-0.10, 0.10], [-0.10, 0.052]])
-    ends = _turned(blade, np.array([blade.box[0], _box_end(blade)]), np.stack((corner, corner)), np.full(2, twist))
+    ends = _turned(
+        blade,
+        np.array([blade.box[0], _box_end(blade)]),
+        np.stack((corner, corner)),
+        np.full(2, twist),
+    )
     caps = [np.stack((end[[0, 1]], end[[3, 2]])) for end in ends]
     return _grids([rings, hub_side]), _grids([*(ends[:, k : k + 2] for k in range(4)), *caps])
 
@@ -174,12 +205,20 @@ def arc_segments(blade: LiftedBlade, still: float, now: float) -> Array:
     angles = np.linspace(still, now, 17)
     line = _arc(blade, reach, angles)
     back = angles[-1] - math.copysign(min(math.radians(3.0), 0.6 * abs(now - still)), now - still)
-    barbs = [np.stack((line[-1], _arc(blade, reach * side, np.array([back]))[0])) for side in (0.955, 1.045)]
+    barbs = [
+        np.stack((line[-1], _arc(blade, reach * side, np.array([back]))[0]))
+        for side in (0.955, 1.045)
+    ]
     return segments_of([line, *barbs])
 
 
 def _arc(blade: LiftedBlade, reach: float, angles: Array) -> Array:
-    return _turned(blade, np.full(len(angles), 1.004), np.tile([[reach, 0.0]], (len(angles), 1))[:, None], angles)[:, 0]
+    return _turned(
+        blade,
+        np.full(len(angles), 1.004),
+        np.tile([[reach, 0.0]], (len(angles), 1))[:, None],
+        angles,
+    )[:, 0]
 
 
 def twisted_point(blade: LiftedBlade, r: float, y: float, z: float, twist: float) -> Array:
@@ -208,7 +247,10 @@ def _grids(grids: list[Array]) -> Mesh:
         rows, columns = grid.shape[:2]
         index = count + np.arange(rows * columns).reshape(rows, columns)
         a, b, c, d = index[:-1, :-1], index[:-1, 1:], index[1:, :-1], index[1:, 1:]
-        faces += [np.stack((a.ravel(), b.ravel(), d.ravel()), 1), np.stack((a.ravel(), d.ravel(), c.ravel()), 1)]
+        faces += [
+            np.stack((a.ravel(), b.ravel(), d.ravel()), 1),
+            np.stack((a.ravel(), d.ravel(), c.ravel()), 1),
+        ]
         vertices.append(grid.reshape(-1, 3))
         count += rows * columns
     return Mesh(np.concatenate(vertices), np.concatenate(faces).astype(np.uint32))
@@ -241,7 +283,9 @@ def _view(aside: float = 0.0) -> tuple[Array, Array, Array]:
 def lifted_pose(radius: float) -> Pose:
     """Where the blade of a rotor of this radius [m] is held, in the world."""
     heading = _AROUND + 0.5 * math.pi - _NEARER
-    turn = composed_rotation(axis_rotation(2, heading), axis_rotation(1, -_RISING), axis_rotation(0, _ROLLED))
+    turn = composed_rotation(
+        axis_rotation(2, heading), axis_rotation(1, -_RISING), axis_rotation(0, _ROLLED)
+    )
     place = sum(share * axis for share, axis in zip(_FROM_HUB, _view(), strict=True))
     return Pose(turn, radius * np.asarray(place))
 
@@ -256,7 +300,10 @@ def fit_lifted(radius: float, aspect: float) -> Camera:
     camera = _fit_from(radius, aspect, 0.0)
     for aside in _ASIDE:
         # Between cards the camera stands further back, and what is far away further out.
-        if seen_at(between_cards(camera, USUAL_COVER), rim, USUAL_COVER.free * aspect)[:, 0].max() <= _MARGIN:
+        if (
+            seen_at(between_cards(camera, USUAL_COVER), rim, USUAL_COVER.free * aspect)[:, 0].max()
+            <= _MARGIN
+        ):
             break
         camera = _fit_from(radius, aspect, aside)
     return camera
@@ -267,12 +314,23 @@ def _fit_from(radius: float, aspect: float, aside: float) -> Camera:
     pose, (_, upward, toward) = lifted_pose(radius), _view(aside)
     ends = [radius * (r - ORIGIN_R) for r in (0.03, 1.02)]
     box = np.array(
-        [[x, y, z] for x in ends for y in (-0.20 * radius, 0.06 * radius) for z in (-0.05 * radius, 0.16 * radius)]
+        [
+            [x, y, z]
+            for x in ends
+            for y in (-0.20 * radius, 0.06 * radius)
+            for z in (-0.05 * radius, 0.16 * radius)
+        ]
     )
     camera = framed(rotate(pose.wxyz, box) + pose.position, toward, aspect, _MARGIN)
-    blade = rotate(pose.wxyz, radius * np.array([[x / radius, -0.15, 0.0] for x in ends])) + pose.position
+    blade = (
+        rotate(pose.wxyz, radius * np.array([[x / radius, -0.15, 0.0] for x in ends]))
+        + pose.position
+    )
     craft = radius * np.array([[1.3, 0.0, 0.45], [-1.0, 0.0, 0.15], [0.4, 0.0, -0.5]])
-    top, low = float(seen_at(camera, craft, aspect)[:, 1].min()), float(seen_at(camera, blade, aspect)[:, 1].max())
+    top, low = (
+        float(seen_at(camera, craft, aspect)[:, 1].min()),
+        float(seen_at(camera, blade, aspect)[:, 1].max()),
+    )
     # Turned up: a camera that rose would move the blade, which is near, and hardly the helicopter.
     sight = math.dist(camera.position, camera.look_at)
     up = min(0.5 - 0.5 * (top + low), _MARGIN - low) * 2.0 * sight * math.tan(FIELD_OF_VIEW / 2.0)

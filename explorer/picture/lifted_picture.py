@@ -113,7 +113,9 @@ def lifted_picture(
             solids[part.role] = StyledMesh(mesh, SURFACES[part.role])
             continue
         light = _PAYING_GLOW if pays else drawing.glow and drawing.glow(shares[part.segment])
-        solids[f"drive_{sum(key.startswith('drive') for key in solids)}"] = StyledMesh(mesh, drawing.style, light)
+        solids[f"drive_{sum(key.startswith('drive') for key in solids)}"] = StyledMesh(
+            mesh, drawing.style, light
+        )
         if drawing.fibres:
             fibres.append(lifted.fibre_segments(blade, part, twist(part.r), inputs.crossed))
     root = float(twist(np.array([rotor.blade.root_cutout]))[0])
@@ -128,8 +130,12 @@ def lifted_picture(
         solids,
         {
             "edges": lifted.edge_segments(blade, rings),
-            "overlay": lifted.edge_segments(blade, still(blade.r)) if abs(ends[1] - ends[0]) > 1e-3 else _NO_SEGMENTS,
-            "leads": lifted.lead_segments(blade, rings) if installed.masses.wiring else _NO_SEGMENTS,
+            "overlay": lifted.edge_segments(blade, still(blade.r))
+            if abs(ends[1] - ends[0]) > 1e-3
+            else _NO_SEGMENTS,
+            "leads": lifted.lead_segments(blade, rings)
+            if installed.masses.wiring
+            else _NO_SEGMENTS,
             "fibres": np.concatenate(fibres) if fibres else _NO_SEGMENTS,
             "arrow": lifted.arc_segments(blade, *ends),
             "leaders": leaders,
@@ -186,7 +192,11 @@ def _labels(
         text = f"{what}, {drive}" if not k else f"{k + 1}: {drive}"
         put(text, low + 0.45 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
     if round(math.degrees(tip), 2):
-        words = f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TWIST_EXAGGERATION:g}"
+        words = (
+            f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TWIST_EXAGGERATION:g}"
+        )
         put(words, 1.0, -0.52, 0.0, -0.45, "tip")
     lines = [np.stack((foot, head)) for _, _, foot, head in places if head[2] > foot[2]]
-    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(lines) if lines else _NO_SEGMENTS
+    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(
+        lines
+    ) if lines else _NO_SEGMENTS

@@ -17,7 +17,14 @@ from explorer.picture.blade_mesh import BladeForm, blade_shape
 from explorer.picture.disk_image import encode_png
 from explorer.picture.disk_numbers import disk_numbers
 from explorer.picture.fields import FIELDS, Field
-from explorer.picture.polar import ALL_MARKS, NO_MARKS, DrawnSolution, RegionMarks, polar_grid, region_codes
+from explorer.picture.polar import (
+    ALL_MARKS,
+    NO_MARKS,
+    DrawnSolution,
+    RegionMarks,
+    polar_grid,
+    region_codes,
+)
 from rotor import Design, Rotor, Solution, TrimState, make_design, solve
 from rotor.design import REFERENCE_RADIUS, ActiveTwist, TwistLaw
 from rotor.support.arrays import Array
@@ -73,7 +80,9 @@ def pitch_series(controls: TrimState, design: Design | None = None) -> list[floa
     series = [controls.collective, controls.cyclic_1c, controls.cyclic_1s]
     given = () if design is None or design.hovering else design.pitch_per_rev
     for n in range(2, max((harmonic.per_rev for harmonic in given), default=1) + 1):
-        size, phase = next(((wave.amplitude, wave.phase) for wave in given if wave.per_rev == n), (0.0, 0.0))
+        size, phase = next(
+            ((wave.amplitude, wave.phase) for wave in given if wave.per_rev == n), (0.0, 0.0)
+        )
         series += [size * math.cos(phase), size * math.sin(phase)]
     return series
 
@@ -82,7 +91,9 @@ def root_pitch(controls: TrimState, psi: float, design: Design | None = None) ->
     """Root pitch of a blade at ψ [rad]."""
     mean, *waves = pitch_series(controls, design)
     orders = enumerate(zip(waves[::2], waves[1::2], strict=True), start=1)
-    return mean + sum(cosine * math.cos(n * psi) + sine * math.sin(n * psi) for n, (cosine, sine) in orders)
+    return mean + sum(
+        cosine * math.cos(n * psi) + sine * math.sin(n * psi) for n, (cosine, sine) in orders
+    )
 
 
 def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | None = None) -> Pose:
@@ -93,7 +104,9 @@ def blade_pose(controls: TrimState, psi: float, hinge: float, design: Design | N
     cos, sin = math.cos(psi), math.sin(psi)
     flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
     pitch = root_pitch(controls, psi, design)
-    turned = composed_rotation(axis_rotation(2, psi), axis_rotation(1, -flap), axis_rotation(0, pitch))
+    turned = composed_rotation(
+        axis_rotation(2, psi), axis_rotation(1, -flap), axis_rotation(0, pitch)
+    )
     return Pose(turned, hinge * np.array([cos, sin, 0.0]))
 
 
@@ -102,7 +115,9 @@ def tip_path_pose(controls: TrimState, drop: float) -> Pose:
 
     z = β1c x + β1s y to first order: turned by −β1c about y and by β1s about x.
     """
-    tilt = composed_rotation(axis_rotation(1, -controls.flap_1c), axis_rotation(0, controls.flap_1s))
+    tilt = composed_rotation(
+        axis_rotation(1, -controls.flap_1c), axis_rotation(0, controls.flap_1s)
+    )
     return Pose(tilt, rotate(tilt, np.array([0.0, 0.0, -drop])))
 
 
@@ -172,7 +187,11 @@ def overlay_twist(solution: Solution, other: TwistLaw, psi: float) -> TwistLaw |
 def follows_azimuth(solution: Solution) -> bool:
     """Whether the shape of a blade in flight changes on its way around the disk."""
     design, disk = solution.design, solution.disk
-    changes = design.active_twist is not None or disk.elastic_twist is not None or solution.deflections is not None
+    changes = (
+        design.active_twist is not None
+        or disk.elastic_twist is not None
+        or solution.deflections is not None
+    )
     return not design.hovering and changes
 
 
@@ -182,7 +201,9 @@ def drawn_bending(solution: Solution, r: ArrayLike, psi: float) -> Array | None:
     bent = solution.deflections
     if bent is None:
         return None
-    up, forward = (BENDING_SHOWN * deflection for deflection in bent.at(np.asarray(r, dtype=float), psi))
+    up, forward = (
+        BENDING_SHOWN * deflection for deflection in bent.at(np.asarray(r, dtype=float), psi)
+    )
     pitch = root_pitch(solution.controls, psi, solution.design)  # The blade's own axes are pitched.
     cos, sin = math.cos(pitch), math.sin(pitch)
     return np.stack([np.zeros_like(up), cos * forward + sin * up, cos * up - sin * forward], axis=1)
@@ -232,7 +253,9 @@ def disk_drop(rotor: Rotor) -> float:
     return DISK_DROP * size(rotor.radius)
 
 
-def turned_blades(solution: Solution, view: ViewState, each: bool = True, bent: bool = True) -> Blades:
+def turned_blades(
+    solution: Solution, view: ViewState, each: bool = True, bent: bool = True
+) -> Blades:
     """The blades with the reference blade at the view's azimuth; `each`: with a form for each, where they differ.
 
     `bent`: whether bending is drawn."""
@@ -244,7 +267,9 @@ def turned_blades(solution: Solution, view: ViewState, each: bool = True, bent: 
     return Blades(
         azimuth=first,
         poses=tuple(blade_pose(solution.controls, psi, hinge, solution.design) for psi in azimuths),
-        forms=tuple(flown_form(solution, view, psi, bent) for psi in (azimuths if differ else azimuths[:1])),
+        forms=tuple(
+            flown_form(solution, view, psi, bent) for psi in (azimuths if differ else azimuths[:1])
+        ),
     )
 
 
@@ -257,17 +282,23 @@ def drawn_times(design: Design, view: ViewState) -> float:
     built-in twist would turn by more than `_MOST_TURNED`."""
     r = np.linspace(design.rotor.blade.root_cutout, 1.0, 25)
     most = float(np.abs(design.twist(r) - design.twist([REFERENCE_RADIUS])).max())
-    return min(view.exaggeration, max(1.0, math.floor(10.0 * _MOST_TURNED / max(most, 1e-9)) / 10.0))
+    return min(
+        view.exaggeration, max(1.0, math.floor(10.0 * _MOST_TURNED / max(most, 1e-9)) / 10.0)
+    )
 
 
 def flown_form(solution: Solution, view: ViewState, psi: float, bent: bool = True) -> BladeForm:
     """A blade in flight at ψ [rad]: its twist, and where `bent` its bending, enlarged."""
     shape = blade_shape(solution.design.rotor)
     bending = drawn_bending(solution, shape.r, psi) if bent else None
-    return BladeForm(shape.pitch(flown_twist(solution, psi), drawn_times(solution.design, view)), bending)
+    return BladeForm(
+        shape.pitch(flown_twist(solution, psi), drawn_times(solution.design, view)), bending
+    )
 
 
-def make_picture(solution: Solution, view: ViewState, each: bool = True, bent: bool = True) -> Picture:
+def make_picture(
+    solution: Solution, view: ViewState, each: bool = True, bent: bool = True
+) -> Picture:
     """The frame for a converged solution; `each` and `bent` as for `turned_blades`."""
     controls = solution.controls
     return Picture(
@@ -284,10 +315,21 @@ def marks_of(view: ViewState) -> RegionMarks:
 
 
 def page_disk_png(
-    solution: Solution, field: Field, colour_range: tuple[float, float], view: ViewState, pixels: int
+    solution: Solution,
+    field: Field,
+    colour_range: tuple[float, float],
+    view: ViewState,
+    pixels: int,
 ) -> bytes:
     """The disk as the scene shows it: marked regions, in the ink of the page."""
-    return disk_png(solution, field, colour_range, size=pixels, marks=marks_of(view), ink=scene_theme(view.dark).ink)
+    return disk_png(
+        solution,
+        field,
+        colour_range,
+        size=pixels,
+        marks=marks_of(view),
+        ink=scene_theme(view.dark).ink,
+    )
 
 
 def disk_png(

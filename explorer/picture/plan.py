@@ -94,7 +94,9 @@ def crossings(x: Array, y: Array, above: Array) -> Array:
     known = np.isfinite(corners).all(axis=0)
     row, column = np.nonzero(positive.any(axis=0) & ~positive.all(axis=0) & known)
     value = [corner[row, column] for corner in corners]
-    places = [np.stack((x[row + (k in (1, 2))], y[column + (k in (2, 3))]), axis=-1) for k in range(4)]
+    places = [
+        np.stack((x[row + (k in (1, 2))], y[column + (k in (2, 3))]), axis=-1) for k in range(4)
+    ]
     # The point at which each of a cell's four sides is crossed; a cell has two such sides, a saddle four.
     sides = [(0, 1), (1, 2), (2, 3), (3, 0)]
     points = np.full((len(row), 4, 2), np.nan)
@@ -166,9 +168,13 @@ def plan(
         unit=field.unit,
         regions=_regions(solution, view, pinned),
         sides=sides(solution.design),
-        flight=UNITS[view.units].speed[0].text(solution.design.airspeed) if solution.design.airspeed else "",
+        flight=UNITS[view.units].speed[0].text(solution.design.airspeed)
+        if solution.design.airspeed
+        else "",
         around=drawn_chart(around_chart(solution)),
-        mu=round(solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4),
+        mu=round(
+            solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4
+        ),
         values=_values(solution) if at_rest else None,
         before=_values(pinned) if at_rest and pinned is not None else None,
         coloured=packed(field.sample(DrawnSolution(solution), grid)) if at_rest else None,
@@ -191,7 +197,10 @@ def around_chart(solution: Solution) -> Chart:
     low, high = (float(alpha.min()), float(alpha.max())) if len(alpha) else (0.0, 0.0)
     ends = min(-2.0, max(-10.0, low)), max(16.0, min(30.0, high))
     return Chart(
-        "Angle of attack over azimuth", Axis("ψ", (0.0, 360.0), AZIMUTH, unit="°"), Axis("°", ends, unit="°"), ()
+        "Angle of attack over azimuth",
+        Axis("ψ", (0.0, 360.0), AZIMUTH, unit="°"),
+        Axis("°", ends, unit="°"),
+        (),
     )
 
 
@@ -218,7 +227,10 @@ def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:
     rings, steps = (grid.r[1] - grid.r[0]), 2.0 * math.pi / len(grid.psi)
     total = float(np.sum(thrust))
     shares = {
-        name: (float(np.sum(area[inside])) * rings * steps / math.pi, float(np.sum(thrust[inside])) / total)
+        name: (
+            float(np.sum(area[inside])) * rings * steps / math.pi,
+            float(np.sum(thrust[inside])) / total,
+        )
         for name, inside in region_masks(DrawnSolution(solution), grid).items()
     }
     return shares | {"stall": (solution.stalled_area, solution.stalled_thrust)}
@@ -240,7 +252,9 @@ def _values(solution: Solution) -> StationValues:
     tables = {name: np.degrees(each) for name, each in angles.items()}
     tables |= {"u_t": disk.u_t, "u_p": disk.u_p, "mach": disk.mach, "cl": disk.cl}
     steps = {name: packed(np.broadcast_to(each, disk.mach.shape)) for name, each in tables.items()}
-    return StationValues([round(r, 6) for r in disk.r.tolist()], round(math.degrees(disk.psi[0]), 6), steps)
+    return StationValues(
+        [round(r, 6) for r in disk.r.tolist()], round(math.degrees(disk.psi[0]), 6), steps
+    )
 
 
 def packed(values: Array | Single) -> PackedTable:

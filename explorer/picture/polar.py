@@ -68,7 +68,9 @@ class PolarGrid:
 class WeightedSums:
     """A field of the solver's grid between two matrices, such as those of a `PolarGrid`, which are mostly zeros."""
 
-    def __init__(self, along: Array, around: Array, precision: "type[np.float32 | np.float64]") -> None:
+    def __init__(
+        self, along: Array, around: Array, precision: "type[np.float32 | np.float64]"
+    ) -> None:
         self._precision = precision
         self._rows, self._columns = _terms(along, precision), _terms(around.T, precision)
 
@@ -77,7 +79,9 @@ class WeightedSums:
         return weighted_sums(np.array(fields, dtype=self._precision), *self._rows, *self._columns)
 
 
-def _terms(matrix: Array, precision: "type[np.float32 | np.float64]") -> tuple[Places, NDArray[Any]]:
+def _terms(
+    matrix: Array, precision: "type[np.float32 | np.float64]"
+) -> tuple[Places, NDArray[Any]]:
     """Columns of the entries of each row that are not zero, and these entries, shape (terms, rows)."""
     most = int(np.count_nonzero(matrix, axis=1).max())
     places = np.argsort(matrix == 0.0, axis=1, kind="stable")[:, :most]
@@ -108,7 +112,9 @@ def weighted_sums(fields: Any, rows: Places, along: Any, columns: Places, around
     return sums
 
 
-def polar_grid(disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, float] | None = None) -> PolarGrid:
+def polar_grid(
+    disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, float] | None = None
+) -> PolarGrid:
     """The grid of `radii` × `azimuths` points over `disk`; kept for the next frame.
 
     `ends`: first and last y/R, where they are not those of `disk` itself; beyond them values are extrapolated.
@@ -119,18 +125,27 @@ def polar_grid(disk: DiskFields, radii: int, azimuths: int, ends: tuple[float, f
 
 @lru_cache(maxsize=16)
 def _build(
-    elements: tuple[float, ...], n_psi: int, first_psi: float, radii: int, azimuths: int, ends: tuple[float, float]
+    elements: tuple[float, ...],
+    n_psi: int,
+    first_psi: float,
+    radii: int,
+    azimuths: int,
+    ends: tuple[float, float],
 ) -> PolarGrid:
     r = np.linspace(*ends, radii)
     psi = 2.0 * np.pi * np.arange(azimuths) / azimuths
     along = _along(r, np.array(elements))
-    return PolarGrid(r=r, psi=psi, along=along, around=_around((psi - first_psi) * n_psi / (2.0 * np.pi), n_psi))
+    return PolarGrid(
+        r=r, psi=psi, along=along, around=_around((psi - first_psi) * n_psi / (2.0 * np.pi), n_psi)
+    )
 
 
 def _weights(fraction: Array) -> Array:
     """Catmull–Rom weights of the four neighbours, shape (points, 4)."""
     t = fraction[:, None]
-    return 0.5 * np.hstack((-t + 2 * t**2 - t**3, 2 - 5 * t**2 + 3 * t**3, t + 4 * t**2 - 3 * t**3, -(t**2) + t**3))
+    return 0.5 * np.hstack(
+        (-t + 2 * t**2 - t**3, 2 - 5 * t**2 + 3 * t**3, t + 4 * t**2 - 3 * t**3, -(t**2) + t**3)
+    )
 
 
 def _around(position: Array, n: int) -> Array:
@@ -176,7 +191,9 @@ def stall_angles(solution: Solution) -> tuple[Array, Array]:
     if not design.models.stall:
         return lower - math.pi, upper + math.pi
     mach = disk.mach if design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
-    for section, rows, shares in _sections(design.rotor.blade, tuple(disk.r.tolist()), design.reynolds_per_metre):
+    for section, rows, shares in _sections(
+        design.rotor.blade, tuple(disk.r.tolist()), design.reynolds_per_metre
+    ):
         negative, positive = section.table.stall_alpha(mach[rows])
         lower[rows] += shares * (negative + section.incidence_offset)
         upper[rows] += shares * (positive + section.incidence_offset)
@@ -184,7 +201,9 @@ def stall_angles(solution: Solution) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=8)
-def _sections(blade: Blade, r: tuple[float, ...], per_metre: float) -> tuple[tuple[Section, Places, Array], ...]:
+def _sections(
+    blade: Blade, r: tuple[float, ...], per_metre: float
+) -> tuple[tuple[Section, Places, Array], ...]:
     """Each section with the elements at r = y/R that have it, and its share of each, (elements, 1)."""
     found: dict[Section, list[tuple[int, float]]] = {}
     for i, at in enumerate(r):
@@ -214,7 +233,9 @@ class RefinedFlow:
 
     def __init__(self, solution: Solution, grid: PolarGrid) -> None:
         self._solution, self._grid, disk = solution, grid, solution.disk
-        self._pitch, self.u_t, self._u_p = grid.refine_all((disk.pitch_of_alpha, disk.u_t, disk.u_p))
+        self._pitch, self.u_t, self._u_p = grid.refine_all(
+            (disk.pitch_of_alpha, disk.u_t, disk.u_p)
+        )
         """U_T/ΩR is negative in reverse flow."""
 
     @cached_property
@@ -294,7 +315,9 @@ class RegionMarks:
 ALL_MARKS, NO_MARKS = RegionMarks(), RegionMarks(False, False, False)
 
 
-def region_codes(drawn: DrawnSolution, grid: PolarGrid, marks: RegionMarks, half_width: float) -> Bytes | None:
+def region_codes(
+    drawn: DrawnSolution, grid: PolarGrid, marks: RegionMarks, half_width: float
+) -> Bytes | None:
     """A `MarkedRegion` for each polar point, shape (radii, azimuths); None where nothing is to be marked.
 
     `half_width`: of the lines, in radii.
@@ -324,7 +347,9 @@ def region_codes(drawn: DrawnSolution, grid: PolarGrid, marks: RegionMarks, half
 @lru_cache(maxsize=4)
 def _dashes(grid: PolarGrid) -> Booleans:
     """Where a dashed line is drawn, also where it runs along a radius; not at the very tip."""
-    dash = (grid.psi * (_DASHES / (2.0 * math.pi)) + 0.5 * _DASHES / math.pi * grid.r[:, None]) % 1.0 < _DASH_SHARE
+    dash = (
+        grid.psi * (_DASHES / (2.0 * math.pi)) + 0.5 * _DASHES / math.pi * grid.r[:, None]
+    ) % 1.0 < _DASH_SHARE
     return dash & (grid.r[:, None] < 0.995)
 
 
@@ -349,8 +374,12 @@ def filled(disk: DiskFields, values: Array) -> Array:
 def _smoothing(grid: PolarGrid) -> WeightedSums:
     """Smoothing on the solver's grid and interpolation in one."""
     along, around = _SMOOTHING
-    rows = ndimage.gaussian_filter1d(np.eye(grid.along.shape[1]), along, axis=0, mode="nearest", truncate=3.0)
-    columns = ndimage.gaussian_filter1d(np.eye(grid.around.shape[0]), around, axis=1, mode="wrap", truncate=3.0)
+    rows = ndimage.gaussian_filter1d(
+        np.eye(grid.along.shape[1]), along, axis=0, mode="nearest", truncate=3.0
+    )
+    columns = ndimage.gaussian_filter1d(
+        np.eye(grid.around.shape[0]), around, axis=1, mode="wrap", truncate=3.0
+    )
     return WeightedSums(grid.along @ rows, columns @ grid.around, np.float32)
 
 
@@ -363,7 +392,9 @@ def mark_below(codes: Bytes, code: int, values: Single, where: Booleans) -> None
 
 
 @_compile
-def mark_line(codes: Bytes, code: int, values: Single, where: Booleans, half_width: float, r: Array) -> None:
+def mark_line(
+    codes: Bytes, code: int, values: Single, where: Booleans, half_width: float, r: Array
+) -> None:
     """Mark, within `where`, the line along which `values` are zero, as wide everywhere: the distance is the value over
     its gradient. `half_width` in radii; `r`: r/R of the rows.
 

@@ -95,7 +95,9 @@ def _mean_inflow(disk: DiskFields, r: Array, psi: Array) -> Array:
 
     At the nearest azimuth.
     """
-    column = np.rint((psi - disk.psi[0]) / (2.0 * math.pi) * len(disk.psi)).astype(int) % len(disk.psi)
+    column = np.rint((psi - disk.psi[0]) / (2.0 * math.pi) * len(disk.psi)).astype(int) % len(
+        disk.psi
+    )
     edges, up_to = disk.edges, np.zeros((len(disk.r) + 1, len(disk.psi)))
     np.cumsum(disk.dr[:, None] * disk.induced, axis=0, out=up_to[1:])
     first = np.clip(r - 0.5 * _WIDTH, edges[0], edges[-1] - _WIDTH)

@@ -12,7 +12,15 @@ import viser
 
 from explorer.hosting.browser import call
 from explorer.hosting.viser_compat import aim
-from explorer.picture.camera_views import FIELD_OF_VIEW, USUAL_COVER, Camera, Covered, View, between_cards, fit
+from explorer.picture.camera_views import (
+    FIELD_OF_VIEW,
+    USUAL_COVER,
+    Camera,
+    Covered,
+    View,
+    between_cards,
+    fit,
+)
 
 _MOST_COVERED = 0.75
 """From above and below. On a lower canvas the scene goes on behind the cards: there is no room beside them."""
@@ -120,7 +128,10 @@ class FittedCamera:
         above, below = max(above, 0.0), max(below, 0.0)
         share = min(1.0, _MOST_COVERED / max(above + below, _MOST_COVERED))
         cover = Covered(share * above, share * below)
-        if abs(cover.above - self._cover.above) + abs(cover.below - self._cover.below) < _LEAST_COVER:
+        if (
+            abs(cover.above - self._cover.above) + abs(cover.below - self._cover.below)
+            < _LEAST_COVER
+        ):
             return
         self._cover = cover
         if self._following and self._put is not None and not self._held:
@@ -135,7 +146,9 @@ class FittedCamera:
     def aim_with(self, fitted: Callable[[float], Camera], eased: bool = False) -> None:
         """Aim at another subject: `fitted` finds the camera for a width over height without cards."""
         self._view, self.subject = None, fitted
-        self._aim(lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover), eased)
+        self._aim(
+            lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover), eased
+        )
 
     def _aim(self, fitted: Callable[[float], Camera] | None = None, eased: bool = False) -> None:
         """Look as `fitted` says, from now on; None: as before."""
@@ -147,7 +160,12 @@ class FittedCamera:
             target = self._fit(self._put or camera.aspect)
             self._arrives = time.monotonic() + _LONGEST_FLIGHT_S if eased else 0.0
             if eased:
-                call(self._client, "rotorScene.look", target.position.tolist(), target.look_at.tolist())
+                call(
+                    self._client,
+                    "rotorScene.look",
+                    target.position.tolist(),
+                    target.look_at.tolist(),
+                )
                 return
             with self._client.atomic():
                 aim(camera, target.position, target.look_at)
@@ -155,7 +173,9 @@ class FittedCamera:
     @property
     def _reshaped(self) -> bool:
         """Whether the canvas has another shape than it was aimed for."""
-        return self._put is None or abs(self._client.camera.aspect / self._put - 1.0) > _ASPECT_CHANGE
+        return (
+            self._put is None or abs(self._client.camera.aspect / self._put - 1.0) > _ASPECT_CHANGE
+        )
 
     def _moved(self, camera: viser.CameraHandle) -> None:
         if self._following and not self._held and self._reshaped:

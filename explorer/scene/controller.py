@@ -29,7 +29,13 @@ from explorer.picture.fields import (
     shown_field,
     usual_range,
 )
-from explorer.picture.picture import field_values, make_picture, marks_of, pitch_series, turned_blades
+from explorer.picture.picture import (
+    field_values,
+    make_picture,
+    marks_of,
+    pitch_series,
+    turned_blades,
+)
 from explorer.picture.polar import NO_MARKS
 from explorer.picture.wake import tip_vortex_path
 from explorer.scene.camera import FittedCamera
@@ -84,12 +90,19 @@ class PageScene:
             return None if values is None else values.round(digits).tolist()
 
         shaped = {
-            node: [numbers(form.pitch, 5), numbers(form.bent, 4), numbers(form.size, 3)] for node, form in forms.items()
+            node: [numbers(form.pitch, 5), numbers(form.bent, 4), numbers(form.size, 3)]
+            for node, form in forms.items()
         }
         call(self._client, "rotorDisk.form", shaped)
 
     def paint(
-        self, solution: Solution, field: Field, ends: Range, view: ViewState, root: str = ROTOR, faded: bool = False
+        self,
+        solution: Solution,
+        field: Field,
+        ends: Range,
+        view: ViewState,
+        root: str = ROTOR,
+        faded: bool = False,
     ) -> None:
         """Colour the disk; `faded`: that of a solution that no longer holds."""
         ink = field.colours, scene_theme(view.dark).ink, faded
@@ -167,7 +180,12 @@ class SceneController:
     """One session's; everything but the buttons happens on its worker."""
 
     def __init__(
-        self, client: viser.ClientHandle, camera: FittedCamera, rotor: Rotor, show_range: ShowRange, dark: bool = False
+        self,
+        client: viser.ClientHandle,
+        camera: FittedCamera,
+        rotor: Rotor,
+        show_range: ShowRange,
+        dark: bool = False,
     ) -> None:
         """`camera`: follows the shaft tilt."""
         self._client = client
@@ -203,7 +221,11 @@ class SceneController:
         self.scene.rotor.reference_blade.on_drag("left")(dragged)
 
     def draw(
-        self, solution: Solution, view: ViewState, overlay: OtherBlade | None, pinned: Solution | None = None
+        self,
+        solution: Solution,
+        view: ViewState,
+        overlay: OtherBlade | None,
+        pinned: Solution | None = None,
     ) -> None:
         """Show a converged solution, the overlay of another blade on the reference blade, and B − A or A if wanted."""
         if overlay is None:
@@ -221,7 +243,9 @@ class SceneController:
                 if not self._page.playing:
                     self.scene.rotor.turn(blades)
                 if len(blades.forms) > 1:
-                    other = self._overlay.show(overlay, solution, view, at_rest=not self._page.playing)
+                    other = self._overlay.show(
+                        overlay, solution, view, at_rest=not self._page.playing
+                    )
                     self._page.form(self.scene.rotor.forms(blades) | other)
                 self._page.turn(blades.azimuth)
                 if not self._page.playing:  # Else the page moves them.
@@ -256,12 +280,20 @@ class SceneController:
         solution, view = drawn.solution, drawn.view
         field = shown_field(view, drawn.pinned)
         values = field_values(solution, field)
-        if field.note and field.title not in self._chosen and not keeps_range(field, values, drawn.colour_range):
+        if (
+            field.note
+            and field.title not in self._chosen
+            and not keeps_range(field, values, drawn.colour_range)
+        ):
             fitted = fitted_range(field, values, trim=CLIPPED_SHARE)
             self._ranges[field.title], drawn = fitted, replace(drawn, colour_range=fitted)
             self._page.paint(solution, field, fitted, view)
         self._show_range(field, drawn.colour_range, False, over_range(values, drawn.colour_range))
-        compared = drawn.pinned if view.wipe and drawn.pinned is not None and drawn.pinned.converged else None
+        compared = (
+            drawn.pinned
+            if view.wipe and drawn.pinned is not None and drawn.pinned.converged
+            else None
+        )
         with self._client.atomic():
             self._overlay.show(drawn.overlay, solution, view, at_rest=True)
             self._air.show(solution, view, scene_theme(view.dark))
@@ -341,6 +373,8 @@ class SceneController:
             return self._ranges[field.title]
         usual = usual_range(field, solution.design.rotor)
         self._ranges[field.title] = (
-            fitted_range(field, field_values(solution, field), trim=CLIPPED_SHARE) if field.note else usual
+            fitted_range(field, field_values(solution, field), trim=CLIPPED_SHARE)
+            if field.note
+            else usual
         )
         return self._ranges[field.title]

@@ -14,7 +14,13 @@ from explorer import colours
 from explorer.colours import SceneTheme
 from explorer.model.inputs import ViewState
 from explorer.model.session_state import Pinned
-from explorer.picture.blade_mesh import BladeForm, blade_shape, overlay_form, overlay_segments, straight
+from explorer.picture.blade_mesh import (
+    BladeForm,
+    blade_shape,
+    overlay_form,
+    overlay_segments,
+    straight,
+)
 from explorer.picture.picture import drawn_bending, drawn_times, flown_twist, overlay_twist
 from explorer.picture.wake import tip_vortices
 from explorer.scene.scene import ROTOR, add_solid, set_mesh
@@ -61,7 +67,9 @@ class Overlay:
     def set_theme(self, theme: SceneTheme) -> None:
         self._theme = theme
 
-    def show(self, other: OtherBlade, solution: Solution, view: ViewState, at_rest: bool) -> dict[str, BladeForm]:
+    def show(
+        self, other: OtherBlade, solution: Solution, view: ViewState, at_rest: bool
+    ) -> dict[str, BladeForm]:
         """Show the overlay of another blade, or of the jig shape, where it differs from the reference blade as flown.
 
         The form of its surface by the name of the node, where it is seen.
@@ -87,7 +95,9 @@ class Overlay:
         self._surface.color = colour
         if at_rest or bent is not None:  # All edges of the straight blade beside the bent one.
             least = _LEAST if bent is None else -1.0
-            segments = overlay_segments(other.rotor, overlay, twist, exaggeration, least).astype(np.float32)
+            segments = overlay_segments(other.rotor, overlay, twist, exaggeration, least).astype(
+                np.float32
+            )
             self._lines.visible = len(segments) > 0
             if len(segments):
                 dark: colours.Rgb = (colour[0] // 2, colour[1] // 2, colour[2] // 2)
@@ -112,7 +122,10 @@ class AirLines:
             points, age = tip_vortices(solution, azimuths)
             share = age[:, :, None] ** 0.8
             fading = (1.0 - share) * np.array(theme.vortex) + share * np.array(theme.vortex_end)
-            self._vortices.points, self._vortices.colors = points.astype(np.float32), fading.astype(np.uint8)
+            self._vortices.points, self._vortices.colors = (
+                points.astype(np.float32),
+                fading.astype(np.uint8),
+            )
         self._vortices.visible = view.wake
 
     def hide_vortices(self) -> None:
@@ -123,7 +136,9 @@ class AirLines:
 def _unseen_lines(api: viser.SceneApi, name: str, width: float) -> viser.LineSegmentsHandle:
     """Lines to be assigned later. Each point has a colour: the page cannot change from one for all to one for each."""
     nothing, black = np.zeros((1, 2, 3), dtype=np.float32), np.zeros((1, 2, 3), dtype=np.uint8)
-    return api.add_line_segments(name, nothing, black, thickness=width, thickness_units="screen", visible=False)
+    return api.add_line_segments(
+        name, nothing, black, thickness=width, thickness_units="screen", visible=False
+    )
 
 
 def even_colours(colour: colours.Rgb, count: int) -> NDArray[np.uint8]:

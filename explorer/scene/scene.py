@@ -96,7 +96,9 @@ class RotorNodes:
         for handle in self._blades[: rotor.blades]:
             handle.vertices = forms[handle.name].vertices(shape).astype(np.float32)
         viser_compat.set_png(self.image, png)
-        self.image.render_width = self.image.render_height = 2.0 * disk_image.half_width(rotor.radius, pixels)
+        self.image.render_width = self.image.render_height = 2.0 * disk_image.half_width(
+            rotor.radius, pixels
+        )
 
     def set_theme(self, theme: SceneTheme) -> None:
         self._theme = theme
@@ -129,11 +131,16 @@ class Scene:
         api.configure_default_lights(enabled=False)
         self._lights = [
             api.add_light_directional(
-                f"/light/{k}", color=light.colour, intensity=light.intensity, position=light.position
+                f"/light/{k}",
+                color=light.colour,
+                intensity=light.intensity,
+                position=light.position,
             )
             for k, light in enumerate(theme.lights)
         ]
-        self._sky = api.add_light_hemisphere("/light/sky", ground_color=(150, 160, 180), intensity=theme.sky)
+        self._sky = api.add_light_hemisphere(
+            "/light/sky", ground_color=(150, 160, 180), intensity=theme.sky
+        )
         self._shadow = picture_plane(api, "/shadow", (0.0, 0.0, 0.0))
         self._airframe = api.add_frame("/airframe", show_axes=False)
         craft = airframe(rotor)
@@ -214,16 +221,27 @@ class Scene:
 
     def _fit_airframe(self) -> None:
         craft, radius = airframe(*self._fitted), self._fitted[0].radius
-        for handle, mesh in ((self._body, craft.body), (self._glass, craft.glass), (self._dark_parts, craft.dark)):
+        for handle, mesh in (
+            (self._body, craft.body),
+            (self._glass, craft.glass),
+            (self._dark_parts, craft.dark),
+        ):
             set_mesh(handle, mesh)
         half = disk_image.SHADOW_HALF * radius
         self._shadow.render_width = self._shadow.render_height = 2.0 * half
-        self._shadow.position = (disk_image.SHADOW_CENTRE * radius, 0.0, craft.ground - _BELOW_GROUND * size(radius))
+        self._shadow.position = (
+            disk_image.SHADOW_CENTRE * radius,
+            0.0,
+            craft.ground - _BELOW_GROUND * size(radius),
+        )
         self._draw_shadow()
 
     def _draw_shadow(self) -> None:
         mask = disk_image.shadow_mask(airframe(*self._fitted), self._fitted[0].radius)
-        viser_compat.set_png(self._shadow, disk_image.tinted_png(mask, self._theme.shadow, self._theme.shadow_strength))
+        viser_compat.set_png(
+            self._shadow,
+            disk_image.tinted_png(mask, self._theme.shadow, self._theme.shadow_strength),
+        )
 
     def _set_visible(self) -> None:
         self.rotor.words.visible = not (self._close or self.behind)
@@ -239,7 +257,13 @@ def add_solid(api: viser.SceneApi, name: str, mesh: Mesh, colour: Rgb) -> viser.
     """A closed surface: only its front is drawn, which costs the page half."""
     vertices = mesh.vertices.astype(np.float32)
     return api.add_mesh_simple(
-        name, vertices, mesh.faces, color=colour, side="front", cast_shadow=False, receive_shadow=False
+        name,
+        vertices,
+        mesh.faces,
+        color=colour,
+        side="front",
+        cast_shadow=False,
+        receive_shadow=False,
     )
 
 
@@ -251,11 +275,21 @@ def set_mesh(handle: viser.MeshHandle, mesh: Mesh) -> None:
         handle.faces = faces
 
 
-def picture_plane(api: viser.SceneApi, name: str, position: tuple[float, float, float]) -> viser.ImageHandle:
+def picture_plane(
+    api: viser.SceneApi, name: str, position: tuple[float, float, float]
+) -> viser.ImageHandle:
     """A flat picture, nose up; its size and content are assigned later."""
     nothing = np.zeros((2, 2, 4), dtype=np.uint8)
     return api.add_image(
-        name, nothing, 1.0, 1.0, format="png", wxyz=_FLAT, position=position, cast_shadow=False, receive_shadow=False
+        name,
+        nothing,
+        1.0,
+        1.0,
+        format="png",
+        wxyz=_FLAT,
+        position=position,
+        cast_shadow=False,
+        receive_shadow=False,
     )
 
 

@@ -36,13 +36,17 @@ def embedded_viewer(pages: Sequence[str]) -> EmbeddedViewer:
     """What viser's stand-alone pages share, once, and what each has of its own."""
     parts = [_parts(page) for page in pages]
     first = parts[0]
-    return EmbeddedViewer(first["before"], first["between"], first["after"], tuple(part["scene"] for part in parts))
+    return EmbeddedViewer(
+        first["before"], first["between"], first["after"], tuple(part["scene"] for part in parts)
+    )
 
 
 def _parts(page: str) -> dict[str, str]:
     match = _SEAMS.fullmatch(page)
     if match is None:
-        raise ValueError("viser's viewer is not laid out as it was: the report has no 3D picture until it is adapted.")
+        raise ValueError(
+            "viser's viewer is not laid out as it was: the report has no 3D picture until it is adapted."
+        )
     return match.groupdict()
 
 
@@ -52,7 +56,9 @@ _PIXELS = 640
 """Along each edge of the disk's picture: a file should be small."""
 
 
-def make_stage(solutions: Sequence[Solution], view: ViewState, colour_range: tuple[float, float]) -> EmbeddedViewer:
+def make_stage(
+    solutions: Sequence[Solution], view: ViewState, colour_range: tuple[float, float]
+) -> EmbeddedViewer:
     """The rotors of converged solutions as the page shows them, their cameras fitted."""
     return embedded_viewer([_still_page(solution, view, colour_range) for solution in solutions])
 

@@ -35,7 +35,9 @@ class Game:
 
     def code(self) -> str:
         """As text for an address; ValueError where no address holds the rotor."""
-        designs = (self.start, self.least) if self.score is None else (self.start, self.least, self.score)
+        designs = (
+            (self.start, self.least) if self.score is None else (self.start, self.least, self.score)
+        )
         return _BETWEEN.join(code_of(design) for design in designs)
 
 
@@ -43,10 +45,16 @@ def game_from(code: str) -> Game:
     """The game of a text; ValueError with one sentence for one that is none."""
     designs = [design_from(part) for part in code.split(_BETWEEN)]
     if not 2 <= len(designs) <= 3:
-        raise ValueError(f"The game in the address, {clipped(code)!r}, has {len(designs)} designs: ask for a new link.")
+        raise ValueError(
+            f"The game in the address, {clipped(code)!r}, has {len(designs)} designs: ask for a new link."
+        )
     game = Game(*designs)
-    if any(not same_but_twist(game.least, design) for design in designs) or not any(_laws(game.least)):
-        raise ValueError("The game in the address mixes flights, rotors or models: ask for a new link.")
+    if any(not same_but_twist(game.least, design) for design in designs) or not any(
+        _laws(game.least)
+    ):
+        raise ValueError(
+            "The game in the address mixes flights, rotors or models: ask for a new link."
+        )
     return game
 
 
@@ -54,11 +62,17 @@ def game_of(search: Search, found: Design, inputs: Inputs) -> Game | None:
     """The game that a search makes; None where the sliders cannot do what it did: its concept is no law on them, it
     had limits, or total power in the present flight was not what it made least."""
     design, concept = search.design, search.concept
-    alone = search.limits == type(search.limits)() and search.objective in (None, at_condition(design, "total"))
+    alone = search.limits == type(search.limits)() and search.objective in (
+        None,
+        at_condition(design, "total"),
+    )
     if not alone or not concept.page or not same_but_twist(found, design):
         return None
     begun = concept.apply(design, nearest(concept, design.twist))
-    start, least = (replace(design, twist=on_steps(with_optimum(inputs, one)).design().twist) for one in (begun, found))
+    start, least = (
+        replace(design, twist=on_steps(with_optimum(inputs, one)).design().twist)
+        for one in (begun, found)
+    )
     return None if start == least else Game(start, least)
 
 

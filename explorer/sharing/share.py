@@ -96,8 +96,16 @@ def code_of(design: Design) -> str:
             )
         return code
     usual = _usual(record["preset"], design.aircraft)
-    changed = {key: value for key, value in record.items() if key not in _LEFT_OUT and value != usual.get(key)}
-    words = [str(VERSION), record["twist"], *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items())]
+    changed = {
+        key: value
+        for key, value in record.items()
+        if key not in _LEFT_OUT and value != usual.get(key)
+    }
+    words = [
+        str(VERSION),
+        record["twist"],
+        *(f"{_SHORT.get(key, key)}={_word(v)}" for key, v in changed.items()),
+    ]
     code = ";".join(words).replace("+", _PLUS)
     if len(code) > LONGEST:
         raise ValueError("This design is too long for a link: save it as a file and send the file.")
@@ -117,15 +125,21 @@ def design_from(code: str) -> Design:
     """The design of a text; ValueError with one sentence for an invalid one."""
     version, _, rest = code.strip().partition(";")
     if version != str(VERSION) or not rest:
-        raise ValueError(f"The design in the address, {clipped(code)!r}, is not version {VERSION}: ask for a new link.")
+        raise ValueError(
+            f"The design in the address, {clipped(code)!r}, is not version {VERSION}: ask for a new link."
+        )
     own, most = rest.startswith(_FILE), LONGEST_OWN if rest.startswith(_FILE) else LONGEST
     if len(code) > most:
-        raise ValueError(f"The design in the address has {len(code)} characters; at most {most} are allowed.")
+        raise ValueError(
+            f"The design in the address has {len(code)} characters; at most {most} are allowed."
+        )
     if own:
         return parse_design(_unpacked(rest.removeprefix(_FILE)), "of this link")
     twist, *words = rest.replace(_PLUS, "+").split(";")
     if "table:" in twist:  # An address must not make the server open a file.
-        raise ValueError(f"The twist {clipped(twist)!r} is a file on the sender's machine: ask for the design file.")
+        raise ValueError(
+            f"The twist {clipped(twist)!r} is a file on the sender's machine: ask for the design file."
+        )
     record: dict[str, Any] = {"twist": twist}
     for word in words:
         key, equals, value = word.partition("=")
@@ -144,9 +158,13 @@ def _unpacked(text: str) -> bytes:
     """The design file of a code; ValueError for one that is damaged, or larger than a design file."""
     try:
         unpack = zlib.decompressobj()
-        content = unpack.decompress(base64.b64decode(text + "=" * (-len(text) % 4), b"-_", True), MOST_BYTES)
+        content = unpack.decompress(
+            base64.b64decode(text + "=" * (-len(text) % 4), b"-_", True), MOST_BYTES
+        )
     except (ValueError, zlib.error):
-        raise ValueError("The link is damaged or cut off: ask for it again, or for the design file.") from None
+        raise ValueError(
+            "The link is damaged or cut off: ask for it again, or for the design file."
+        ) from None
     if not unpack.eof or unpack.unused_data:
         raise ValueError("The link is damaged, cut off or too large: ask for the design file.")
     return content
@@ -163,7 +181,9 @@ def inputs_from(code: str, kept: str | None = None) -> Inputs:
             "Its rotor is the sender's own and too large for a link: ask for the design file, and load it in Files."
         )
     record = kept if code == KEPT else None
-    return within(inputs_of(parse_design(record.encode(), "of this page") if record else design_from(code)))
+    return within(
+        inputs_of(parse_design(record.encode(), "of this page") if record else design_from(code))
+    )
 
 
 def within(inputs: Inputs) -> Inputs:
@@ -203,7 +223,11 @@ def _holds(name: str, inputs: Inputs) -> bool:
 def _word(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.10g}"
-    return value if isinstance(value, str) else json.dumps(value, separators=(",", ":"), ensure_ascii=False)
+    return (
+        value
+        if isinstance(value, str)
+        else json.dumps(value, separators=(",", ":"), ensure_ascii=False)
+    )
 
 
 def _value(word: str) -> object:
@@ -230,7 +254,12 @@ class StoredHistory:
     def text(self) -> str:
         past, future = _codes(self.past[-MOST_STEPS:]), _codes(self.future[:MOST_STEPS])
         present = None if self.present is None else _code(self.present)
-        record = {"past": past, "present": present, "future": future, "bookmarks": _codes(self.bookmarks)}
+        record = {
+            "past": past,
+            "present": present,
+            "future": future,
+            "bookmarks": _codes(self.bookmarks),
+        }
         return json.dumps(record, separators=(",", ":"), ensure_ascii=False)
 
 
@@ -241,7 +270,9 @@ def read_history(text: str | None, start: Inputs) -> StoredHistory:
     """
     try:
         record: Any = json.loads(text or "{}")
-        past, future, bookmarks = (_inputs(record.get(name, [])) for name in ("past", "future", "bookmarks"))
+        past, future, bookmarks = (
+            _inputs(record.get(name, [])) for name in ("past", "future", "bookmarks")
+        )
         present = _inputs([record["present"]] if record.get("present") else [])
     except (ValueError, TypeError, AttributeError, RecursionError):
         return StoredHistory(present=start)
@@ -285,13 +316,19 @@ def _by_word(titles: Iterable[str]) -> dict[str, str]:
 
 
 _CHOICES = {"field": _by_word(FIELDS), "units": _by_word(UNITS)}
-_WORDS = {name: {title: word for word, title in choices.items()} for name, choices in _CHOICES.items()}
+_WORDS = {
+    name: {title: word for word, title in choices.items()} for name, choices in _CHOICES.items()
+}
 
 
 def view_code(view: ViewState) -> str | None:
     """The view as a text; None for one that shows what every page begins with."""
     shown = ((name, getattr(view, name)) for name in _NAMES)
-    words = [f"{name}={_view_word(name, value)}" for name, value in shown if value != getattr(_PLAIN_VIEW, name)]
+    words = [
+        f"{name}={_view_word(name, value)}"
+        for name, value in shown
+        if value != getattr(_PLAIN_VIEW, name)
+    ]
     return ";".join((str(VERSION), *words)) if words else None
 
 
@@ -299,12 +336,16 @@ def view_from(code: str) -> ViewState:
     """The view a text means; ValueError with one sentence for one that means none."""
     version, *words = code.strip().split(";")
     if version != str(VERSION):
-        raise ValueError(f"The view in the address, {clipped(code)!r}, is not version {VERSION}: ask for a new link.")
+        raise ValueError(
+            f"The view in the address, {clipped(code)!r}, is not version {VERSION}: ask for a new link."
+        )
     view = _PLAIN_VIEW
     for word in words:
         name, _, value = word.partition("=")
         if name not in _NAMES:
-            raise ValueError(f"The view in the address holds {clipped(word)!r}: choose {', '.join(_NAMES)}.")
+            raise ValueError(
+                f"The view in the address holds {clipped(word)!r}: choose {', '.join(_NAMES)}."
+            )
         view = replace(view, **{name: _view_value(name, value)})
     return view
 
@@ -320,7 +361,9 @@ def _view_value(name: str, word: str) -> Any:
         return _number(name, word)
     choices: dict[str, Any] = _CHOICES.get(name, _SWITCHED)
     if word not in choices:
-        raise ValueError(f"The view in the address has {name}={clipped(word)!r}: choose {', '.join(choices)}.")
+        raise ValueError(
+            f"The view in the address has {name}={clipped(word)!r}: choose {', '.join(choices)}."
+        )
     return choices[word]
 
 
@@ -344,16 +387,22 @@ def parameter(query: str, name: str) -> str | None:
 
 def with_parameter(query: str, name: str, value: str | None) -> str:
     """The query with a name set, at its end; None removes it. Everything else stays."""
-    pairs = [pair for pair in parse_qsl(query.lstrip("?"), keep_blank_values=True) if pair[0] != name]
+    pairs = [
+        pair for pair in parse_qsl(query.lstrip("?"), keep_blank_values=True) if pair[0] != name
+    ]
     if value is not None:
         pairs.append((name, value))
-    return "?" + "&".join(f"{quote(key, _READABLE)}={quote(text, _READABLE)}" for key, text in pairs)
+    return "?" + "&".join(
+        f"{quote(key, _READABLE)}={quote(text, _READABLE)}" for key, text in pairs
+    )
 
 
 class Address:
     """The address of one page; safe from any thread."""
 
-    def __init__(self, query: str | None, write: Callable[[str], None], pause: float = _PAUSE) -> None:
+    def __init__(
+        self, query: str | None, write: Callable[[str], None], pause: float = _PAUSE
+    ) -> None:
         """`query`: that of the opened page; None, not known, is never written over. `write` puts another into the
         address, at least `pause` [s] apart."""
         self.query, self._pause = query or "", pause

@@ -34,7 +34,9 @@ from rotor.design import Harmonic
 from rotor.optimisation.doubt import difference_doubt
 from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist
 
-Kind = Literal["power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"]
+Kind = Literal[
+    "power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"
+]
 ACTUATOR = "MFC_P1"
 """Actuator of the last step."""
 _FLAT_SHARE = 0.001
@@ -63,11 +65,19 @@ class Number:
             case "power" | "change" | "percent" if self.band:
                 unit, least = (Unit("%", 0.01), 1) if self.kind == "percent" else (units, 0)
                 least = digits_of(value, units) if self.kind == "power" else least
-                text = banded(value, self.band, unit, least=least, sign=self.kind == "change").partition(":")[0]
+                text = banded(
+                    value, self.band, unit, least=least, sign=self.kind == "change"
+                ).partition(":")[0]
             case "power" | "change":
                 text = units.watts(value, digits_of(value, units), sign=self.kind == "change")
             case "percent" | "fine" | "signed":
-                digits = 2 if self.kind == "fine" else 0 if abs(value) >= 0.095 or (100.0 * value) % 1.0 == 0.0 else 1
+                digits = (
+                    2
+                    if self.kind == "fine"
+                    else 0
+                    if abs(value) >= 0.095 or (100.0 * value) % 1.0 == 0.0
+                    else 1
+                )
                 text = f"{number(100.0 * value, digits, sign=self.kind == 'signed')} %"
             case "angle":
                 text = f"{number(value, 1)}°"
@@ -155,14 +165,27 @@ def _trim(step: LectureStep) -> StepFacts:
     flight = _Sweep(step)
     powers = [solution.power for solution in flight.b]
     values = step.control.values
-    hover, cruise, low = powers[0], powers[values.index(0.3)], int(np.argmin([power.total for power in powers]))
+    hover, cruise, low = (
+        powers[0],
+        powers[values.index(0.3)],
+        int(np.argmin([power.total for power in powers])),
+    )
     names = "induced", "profile", "parasite"
-    parts = tuple(ChartLine(name, name, tuple(getattr(power, name) for power in powers)) for name in names)
+    parts = tuple(
+        ChartLine(name, name, tuple(getattr(power, name) for power in powers)) for name in names
+    )
     totals = tuple(power.total for power in powers)
-    chart = StepChart("advance ratio", "power", "power", values, "mu", (ChartLine("total", "b", totals), *parts))
+    chart = StepChart(
+        "advance ratio", "power", "power", values, "mu", (ChartLine("total", "b", totals), *parts)
+    )
     ratio = cruise.induced / hover.induced
     numbers = (
-        _of("power", hover_induced=hover.induced, cruise_induced=cruise.induced, least_power=powers[low].total)
+        _of(
+            "power",
+            hover_induced=hover.induced,
+            cruise_induced=cruise.induced,
+            least_power=powers[low].total,
+        )
         | _of("percent", induced_ratio=ratio)
         | _of("mu", cruise_mu=0.3, least_mu=values[low])
     )
@@ -203,7 +226,9 @@ def _changes(step: LectureStep) -> StepFacts:
     profile = tuple(here.profile - there.profile for here, there in powers)
     lines = ChartLine("induced", "induced", induced), ChartLine("profile", "profile", profile)
     chart = StepChart("twist [°/R]", "B − A", "power", step.control.values, "rate", lines)
-    by_induced, by_profile = (getattr(b.power, name) - getattr(a.power, name) for name in ("induced", "profile"))
+    by_induced, by_profile = (
+        getattr(b.power, name) - getattr(a.power, name) for name in ("induced", "profile")
+    )
     part = by_induced / (b.power.total - a.power.total)
     numbers = _named(step, a, b) | _of("percent", induced_part=part)
     answer = abs(by_induced) / abs(by_profile) if step.name == "linear_inflow" else part
@@ -213,24 +238,40 @@ def _changes(step: LectureStep) -> StepFacts:
 def _fast_twist(step: LectureStep) -> StepFacts:
     blades = _Sweep(step)
     (a, b), without = blades.pair, (blades.a[1], blades.b[1])
-    rates, own = tuple(float(rate) for rate in range(0, -21, -2)), (_against(step).linear, step.inputs.linear)
+    rates, own = (
+        tuple(float(rate) for rate in range(0, -21, -2)),
+        (_against(step).linear, step.inputs.linear),
+    )
     lines, dots = list[ChartLine](), list[list[tuple[float, float]]]()
-    for k, (stop, name) in enumerate(zip(blades.stops, ("with fuselage drag", "without"), strict=True)):
+    for k, (stop, name) in enumerate(
+        zip(blades.stops, ("with fuselage drag", "without"), strict=True)
+    ):
         totals = [
-            solve(replace(stop.inputs, linear=rate).design(), blades.b[k]).require().power.total for rate in rates
+            solve(replace(stop.inputs, linear=rate).design(), blades.b[k]).require().power.total
+            for rate in rates
         ]
         ends = [solution.power.total for solution in (blades.a[k], blades.b[k])]
         lowest = min(*totals, *ends)
-        lines.append(ChartLine(name, "b" if k == 0 else "limit", tuple(total / lowest - 1.0 for total in totals)))
+        lines.append(
+            ChartLine(
+                name, "b" if k == 0 else "limit", tuple(total / lowest - 1.0 for total in totals)
+            )
+        )
         dots.append([(rate, total / lowest - 1.0) for rate, total in zip(own, ends, strict=True)])
-    chart = StepChart("twist [°/R]", "above least", "percent", rates, "rate", tuple(lines), dots=("a", "b"))
+    chart = StepChart(
+        "twist [°/R]", "above least", "percent", rates, "rate", tuple(lines), dots=("a", "b")
+    )
     fast = step.inputs.advance_ratio
 
     def rate(on: Sequence[str]) -> float:
         return linear_optimum(tuple(on), fast, None).rate_deg
 
     before = _BUILT[: _BUILT.index(TRIM[0])]
-    pairs = (before, (*before, *TRIM)), ((), TRIM), ([name for name in _BUILT if name not in TRIM], _BUILT)
+    pairs = (
+        (before, (*before, *TRIM)),
+        ((), TRIM),
+        ([name for name in _BUILT if name not in TRIM], _BUILT),
+    )
     moves = sorted(abs(rate(trimmed) - rate(untrimmed)) for untrimmed, trimmed in pairs)
     numbers = (
         _named(step, a, b)
@@ -245,7 +286,10 @@ def _fast_twist(step: LectureStep) -> StepFacts:
 def _reverse_flow(step: LectureStep) -> StepFacts:
     flight = _Sweep(step)
     a, b = flight.pair
-    costs = tuple(solution.power.total - other.power.total for solution, other in zip(flight.b, flight.a, strict=True))
+    costs = tuple(
+        solution.power.total - other.power.total
+        for solution, other in zip(flight.b, flight.a, strict=True)
+    )
     slow = step.control.values.index(0.25)
     share, sure = b.power.total / a.power.total - 1.0, doubt(flight.b[slow], flight.a[slow])
     named = _named(step, a, b)
@@ -272,15 +316,24 @@ def _two_segments(step: LectureStep) -> StepFacts:
     numbers = (
         _named(step, a, b)
         | _of("percent", flat=_FLAT_SHARE, **{"break": inputs.two_division})
-        | _said(twist_inner=angle_words(inputs.two_inner), twist_outer=angle_words(inputs.two_outer))
+        | _said(
+            twist_inner=angle_words(inputs.two_inner), twist_outer=angle_words(inputs.two_outer)
+        )
         | _said(twist_a=angle_words(_against(step).linear))
         | _of("angle", flat_low=min(flat), flat_high=max(flat))
     )
     level = (0.0,) * len(changes)
     lines = ChartLine("A", "a", level), ChartLine("B", "b", changes)
-    chart = StepChart("inboard twist [°/R]", "against A", "percent", step.control.values, "rate", lines)
-    saving, band = 1.0 - b.power.total / a.power.total, 0.01 * (doubt(b, a).change_band_percent or 0.0)
-    return _banded(step, blades.facts(numbers, saving, chart, level, changes), saving - band, saving + band)
+    chart = StepChart(
+        "inboard twist [°/R]", "against A", "percent", step.control.values, "rate", lines
+    )
+    saving, band = (
+        1.0 - b.power.total / a.power.total,
+        0.01 * (doubt(b, a).change_band_percent or 0.0),
+    )
+    return _banded(
+        step, blades.facts(numbers, saving, chart, level, changes), saving - band, saving + band
+    )
 
 
 def _fixed_or_moving(step: LectureStep) -> StepFacts:
@@ -292,7 +345,9 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
 
     def stop(mu: float, rate: float) -> ControlStop:
         b, a = (replace(step.inputs, advance_ratio=mu, linear=twist) for twist in (rate, fixed))
-        return ControlStop(f"{speed_words(mu)}, {angle_words(rate)}", b, a, ((mu, fixed), (mu, rate)))
+        return ControlStop(
+            f"{speed_words(mu)}, {angle_words(rate)}", b, a, ((mu, fixed), (mu, rate))
+        )
 
     stops = tuple(map(stop, SPEEDS, rates))
     moved = [solve(each.inputs.design()) for each in stops]
@@ -305,28 +360,43 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
         | _of("fine", gain_low=min(gains), gain_high=max(gains))
         | _said(saves="" if sure is None else sure.saving_words)
         | _of("count", wakes=len(gains), inside=inside, speeds=len(SPEEDS))
-        | _of("power", gain_power=1e3 * moving.gain * moving.fixed_kw, fixed_power=1e3 * moving.fixed_kw)
+        | _of(
+            "power",
+            gain_power=1e3 * moving.gain * moving.fixed_kw,
+            fixed_power=1e3 * moving.fixed_kw,
+        )
         | _of("percent", band=_FLAT_SHARE)
         | _said(fixed=angle_words(round(fixed, 1)))
     )
-    lines = ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)), ChartLine("best at each speed, B", "b", rates)
+    lines = (
+        ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)),
+        ChartLine("best at each speed, B", "b", rates),
+    )
     chart = StepChart("advance ratio", "twist [°/R]", "angle", SPEEDS, "mu", lines, (low, high))
-    return _banded(step, _answered(step, stops, numbers, moving.gain, chart), min(gains), max(gains))
+    return _banded(
+        step, _answered(step, stops, numbers, moving.gain, chart), min(gains), max(gains)
+    )
 
 
 def _power_or_vibration(step: LectureStep) -> StepFacts:
-    front = vibration_front(step.inputs.design(), harmonics=_HARMONICS, reach_deg=_REACH, points=FRONT)
+    front = vibration_front(
+        step.inputs.design(), harmonics=_HARMONICS, reach_deg=_REACH, points=FRONT
+    )
     changes = [(0.01 * power, 0.01 * index) for power, index in front.changes]
     stops = list[ControlStop]()
     for k, (point, (power, index)) in enumerate(zip(front.points, changes, strict=True)):
         twist = point.design.active_twist
         waves = () if twist is None else tuple(map(_rounded, twist.harmonics))
         inputs = replace(step.inputs, twist_per_rev=waves)
-        stops.append(ControlStop(step.control.words(float(k)), inputs, step.against, ((power, index),)))
+        stops.append(
+            ControlStop(step.control.words(float(k)), inputs, step.against, ((power, index),))
+        )
     last, ends = front.points[-1], front.points[-1].over_inflows or (0.0, 0.0)
     powers, indices = zip(*changes, strict=True)
     start = solve(front.start.design)
-    saves, costs = (doubt(solve(point.design, start), start).saving_words for point in (front.points[0], last))
+    saves, costs = (
+        doubt(solve(point.design, start), start).saving_words for point in (front.points[0], last)
+    )
     numbers = (
         _named(step, None, None)
         | _said(harmonics=" and ".join(map(str, _HARMONICS)), reach=f"{_REACH:g}°")
@@ -337,12 +407,18 @@ def _power_or_vibration(step: LectureStep) -> StepFacts:
     )
     lines, across = (ChartLine("front", "b", indices),), "power, change from A"
     chart = StepChart(across, "vibration index, change from A", "percent", powers, "signed", lines)
-    return _banded(step, _answered(step, tuple(stops), numbers, indices[0], chart), *(0.01 * end for end in ends))
+    return _banded(
+        step,
+        _answered(step, tuple(stops), numbers, indices[0], chart),
+        *(0.01 * end for end in ends),
+    )
 
 
 def _rounded(wave: Harmonic) -> Harmonic:
     """To 1e-4°: a link of the step holds 1, not 1.0000000000931712."""
-    turn, phase = (math.radians(round(math.degrees(angle), 4)) for angle in (wave.amplitude, wave.phase))
+    turn, phase = (
+        math.radians(round(math.degrees(angle), 4)) for angle in (wave.amplitude, wave.phase)
+    )
     return replace(wave, amplitude=turn, phase=phase)
 
 
@@ -351,22 +427,36 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
     flight, verdict = _Sweep(step), try_actuator(ACTUATOR, make_design())
     installed = verdict.installed
     flown = fly(verdict, [FlightLeg(speed_words(mu), mu) for mu in SPEEDS])
-    set_to = [ActuatorInputs(ACTUATOR, **schedule_at(flown, installed, k)) for k in range(len(SPEEDS))]
+    set_to = [
+        ActuatorInputs(ACTUATOR, **schedule_at(flown, installed, k)) for k in range(len(SPEEDS))
+    ]
     twisted, loaded = list[Solution](), list[Solution]()
     for bare, actuator in zip(flight.b, set_to, strict=True):
         loaded.append(solve(actuator.apply(bare.design), bare).require())
         twisted.append(solve(replace(bare.design, twist=loaded[-1].design.twist), bare).require())
-    pairs = [list(zip(*pair, strict=True)) for pair in ((loaded, flight.b), (twisted, flight.b), (loaded, twisted))]
-    net, twist, cost = ([after.power.total - before.power.total for after, before in pair] for pair in pairs)
+    pairs = [
+        list(zip(*pair, strict=True))
+        for pair in ((loaded, flight.b), (twisted, flight.b), (loaded, twisted))
+    ]
+    net, twist, cost = (
+        [after.power.total - before.power.total for after, before in pair] for pair in pairs
+    )
     start, reach = step.control.start, [math.degrees(end) for end in set_to[0].reach(installed)]
     within = [doubt(*pair).change_band or 0.0 for pair in pairs[0]]
     here, gross, costs = (doubt(*pair[start]) for pair in pairs)
-    over = [limit_words(limit.name) for limit in verdict.broken if limit.name not in installed.actuator.range_limits]
+    over = [
+        limit_words(limit.name)
+        for limit in verdict.broken
+        if limit.name not in installed.actuator.range_limits
+    ]
     numbers = (
         _said(sure_here=here.sureness or "", limits=listed(over), actuator=installed.actuator.name)
         | _said(sure=net_band_words(verdict).rpartition(": ")[2])
         | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1], mu=SPEEDS[start])
-        | _said(reach_low=f"{number(reach[0], 1, sign=True)}°", reach_high=f"{number(reach[1], 1, sign=True)}°")
+        | _said(
+            reach_low=f"{number(reach[0], 1, sign=True)}°",
+            reach_high=f"{number(reach[1], 1, sign=True)}°",
+        )
         | {"gross": Number("power", -twist[start], band=gross.change_band)}
         | {"cost": Number("power", cost[start], band=costs.change_band)}
         | {"here": Number("power", net[start], band=here.change_band)}
@@ -374,11 +464,20 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
         | _of("mass", mass=installed.masses.aircraft)
     )
     lines = ChartLine("twist alone", "a", tuple(twist)), ChartLine("with its mass", "b", tuple(net))
-    ends = tuple(tuple(power + sign * band for power, band in zip(net, within, strict=True)) for sign in (-1.0, 1.0))
-    chart = StepChart("advance ratio", "extra power", "power", SPEEDS, "mu", lines, (ends[0], ends[1]))
+    ends = tuple(
+        tuple(power + sign * band for power, band in zip(net, within, strict=True))
+        for sign in (-1.0, 1.0)
+    )
+    chart = StepChart(
+        "advance ratio", "extra power", "power", SPEEDS, "mu", lines, (ends[0], ends[1])
+    )
     facts = flight.facts(numbers, verdict.net_saving, chart, twist, net)
     stops = [
-        replace(stop, actuator=one, numbers=_said(tip=f"{number(math.degrees(one.tip(installed)), 2, sign=True)}°"))
+        replace(
+            stop,
+            actuator=one,
+            numbers=_said(tip=f"{number(math.degrees(one.tip(installed)), 2, sign=True)}°"),
+        )
         for stop, one in zip(facts.stops, set_to, strict=True)
     ]
     return replace(facts, stops=tuple(stops))
@@ -408,7 +507,9 @@ class _Sweep:
         b = [control.apply(step.inputs, value) for value in control.values]
         a = [compared_inputs(step.against, step.inputs, inputs) for inputs in b]
         stops = zip(control.values, b, a, strict=True)
-        self.stops = tuple(ControlStop(control.words(value), inputs, other, ()) for value, inputs, other in stops)
+        self.stops = tuple(
+            ControlStop(control.words(value), inputs, other, ()) for value, inputs, other in stops
+        )
         self.b, self.a = _trimmed(b), _trimmed([inputs for inputs in a if inputs is not None])
 
     @property
@@ -418,11 +519,18 @@ class _Sweep:
         return self.a[start], self.b[start]
 
     def facts(
-        self, numbers: Mapping[str, Number], answer: float, chart: StepChart, *curves: Sequence[float]
+        self,
+        numbers: Mapping[str, Number],
+        answer: float,
+        chart: StepChart,
+        *curves: Sequence[float],
     ) -> StepFacts:
         """With dots on these curves over the values of the control."""
         placed = enumerate(zip(self.stops, self._step.control.values, strict=True))
-        stops = tuple(replace(stop, dots=tuple((value, curve[k]) for curve in curves)) for k, (stop, value) in placed)
+        stops = tuple(
+            replace(stop, dots=tuple((value, curve[k]) for curve in curves))
+            for k, (stop, value) in placed
+        )
         return _answered(self._step, stops, numbers, answer, chart)
 
 
@@ -431,16 +539,24 @@ def _trimmed(designs: Sequence[Inputs]) -> list[Solution]:
     solutions = list[Solution]()
     for inputs in designs:
         design, before = inputs.design(), solutions[-1] if solutions else None
-        solutions.append(before if before and before.design == design else solve(design, before).require())
+        solutions.append(
+            before if before and before.design == design else solve(design, before).require()
+        )
     return solutions
 
 
 def _answered(
-    step: LectureStep, stops: tuple[ControlStop, ...], numbers: Mapping[str, Number], answer: float, chart: StepChart
+    step: LectureStep,
+    stops: tuple[ControlStop, ...],
+    numbers: Mapping[str, Number],
+    answer: float,
+    chart: StepChart,
 ) -> StepFacts:
     """With the bounds between the answers, and the right one."""
     bounds = {
-        f"bound_{k}" if len(set(map(abs, step.bounds)) - {0.0}) > 1 else "bound": Number("percent", abs(bound))
+        f"bound_{k}" if len(set(map(abs, step.bounds)) - {0.0}) > 1 else "bound": Number(
+            "percent", abs(bound)
+        )
         for k, bound in enumerate(step.bounds, start=1)
         if bound
     }

@@ -28,7 +28,9 @@ def step_record(step: LectureStep, facts: StepFacts | None, units: Units) -> Ste
         options=[filled(option) for option in text.options],
         todo=filled(text.todo),
         control=StepControl(
-            label=control.label, kind=control.kind, words=[stop.words for stop in facts.stops] if facts else []
+            label=control.label,
+            kind=control.kind,
+            words=[stop.words for stop in facts.stops] if facts else [],
         ),
         last=step is STEPS[-1],
     )
@@ -38,7 +40,11 @@ def answer_record(step: LectureStep, facts: StepFacts, units: Units) -> StepAnsw
     """What is said after it, with the chart in the page's units."""
     chart = facts.chart
     unit = units.power[0]
-    ways = {"power": (unit.size, f" [{unit.symbol}]"), "percent": (0.01, " [%]"), "angle": (1.0, "")}
+    ways = {
+        "power": (unit.size, f" [{unit.symbol}]"),
+        "percent": (0.01, " [%]"),
+        "angle": (1.0, ""),
+    }
     size, symbol = ways[chart.kind]
     wide = 100.0 if chart.x_kind == "signed" else 1.0
     x = [wide * value for value in chart.x]
@@ -83,4 +89,8 @@ def _colour(name: str) -> str:
 def _x_words(chart: StepChart, x: float) -> str:
     if chart.x_kind == "mu":
         return speed_words(x)
-    return angle_words(x).removesuffix("/R") if chart.x_kind == "rate" else f"{number(100.0 * x, 1, sign=True)} %"
+    return (
+        angle_words(x).removesuffix("/R")
+        if chart.x_kind == "rate"
+        else f"{number(100.0 * x, 1, sign=True)} %"
+    )

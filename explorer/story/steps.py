@@ -42,7 +42,12 @@ class StepText:
     @property
     def parts(self) -> tuple[str, ...]:
         """All texts of the step except the title."""
-        return tuple(filter(None, (self.watch, self.question, *self.options, self.answer, self.todo, self.a, self.b)))
+        return tuple(
+            filter(
+                None,
+                (self.watch, self.question, *self.options, self.answer, self.todo, self.a, self.b),
+            )
+        )
 
 
 @dataclass(frozen=True)
@@ -101,7 +106,9 @@ class LectureStep:
 def view_of(step: LectureStep, view: ViewState) -> ViewState:
     """What is shown at a step: A and B on either side of a handle where they are compared."""
     compared = step.against is not None
-    return replace(view, field=step.field, difference=False, wipe=compared, reverse_flow=True, stall=True)
+    return replace(
+        view, field=step.field, difference=False, wipe=compared, reverse_flow=True, stall=True
+    )
 
 
 def compared_inputs(against: Inputs | None, stated: Inputs, inputs: Inputs) -> Inputs | None:
@@ -112,7 +119,9 @@ def compared_inputs(against: Inputs | None, stated: Inputs, inputs: Inputs) -> I
     """
     if against is None:
         return None
-    return replace(inputs, **{name: getattr(against, name) for name in differing(against, stated) | MOVED})
+    return replace(
+        inputs, **{name: getattr(against, name) for name in differing(against, stated) | MOVED}
+    )
 
 
 _BLANK = "\u00a0"
@@ -148,20 +157,29 @@ def compared_quantities(
     def power(part: PowerBudget, which: int) -> Figure:
         band = None if sure is None else sure[which].band
         digits = 0 if band is None else max(fineness(part, units), decimals(unit.of(band)))
-        return Figure(units.watts(part.total), _BLANK if band is None else f"± {unit.text(band, digits)}")
+        return Figure(
+            units.watts(part.total), _BLANK if band is None else f"± {unit.text(band, digits)}"
+        )
 
     def change(name: str, unit: Unit, least: int) -> Figure:
         moved, within = getattr(after, name) - getattr(before, name), bands.get(name)
         if not within or max(abs(unit.of(moved)), unit.of(within)) < 0.5 * 10.0**-least:
             return Figure(unit.text(moved, least, sign=True), "" if bands else _BLANK)
-        words = banded(moved, within, unit, least=least, sign=True, sourced=sure is None or sure[1].sourced)
+        words = banded(
+            moved, within, unit, least=least, sign=True, sourced=sure is None or sure[1].sourced
+        )
         size, _, rest = words.partition(" ± ")
         return Figure(f"{size} {unit.symbol}", f"± {rest.replace(':', ',')}")
 
     found = {
-        **{f"{name}_share": Figure(percent(getattr(after, name) / after.total)) for name in PART_TITLES},
         **{
-            f"{name}_change": change(name, unit, digits_of(getattr(after, name) - getattr(before, name), units))
+            f"{name}_share": Figure(percent(getattr(after, name) / after.total))
+            for name in PART_TITLES
+        },
+        **{
+            f"{name}_change": change(
+                name, unit, digits_of(getattr(after, name) - getattr(before, name), units)
+            )
             for name in ("total", "induced", "profile")
         },
         "total_a": power(before, 0),
@@ -180,7 +198,9 @@ def compared_quantities(
         if index_band is not None:
             low, high = (number(end, 0, sign=True) for end in index_band)
             within = f"{low}…{high} %{', unclear' if index_band[0] * index_band[1] <= 0.0 else ''}"
-        found["index_change"] = Figure(percent(loads_b.index / loads_a.index - 1.0, 0, sign=True), within)
+        found["index_change"] = Figure(
+            percent(loads_b.index / loads_a.index - 1.0, 0, sign=True), within
+        )
     return {name: Figure(*map(on_one_line, figure)) for name, figure in found.items()}
 
 
@@ -199,7 +219,9 @@ def speed_words(advance_ratio: float) -> str:
     return f"µ\u00a0{advance_ratio:.3f}".rstrip("0").ljust(6, "0") if advance_ratio else "hover"
 
 
-def _control(label: str, start: float, moves: str = "", ends: Sequence[float] = (), **kind: Any) -> StepSlider:
+def _control(
+    label: str, start: float, moves: str = "", ends: Sequence[float] = (), **kind: Any
+) -> StepSlider:
     """`ends`: both, and the step between values; without them the speeds."""
     values = SPEEDS
     if ends:
@@ -220,7 +242,8 @@ def _step(
     **shown: Any,
 ) -> LectureStep:
     words: dict[str, Any] = {
-        key: tuple(part) if key == "options" else " ".join(part.split()) for key, part in text.items()
+        key: tuple(part) if key == "options" else " ".join(part.split())
+        for key, part in text.items()
     }
     return LectureStep(
         name,

@@ -10,7 +10,15 @@ from explorer.model.units import METRE_PER_SECOND, SI, TONNE, Units, number
 from rotor import Design, Rotor
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, switched_off
-from rotor.design import Harmonic, IdealTwist, LinearTwist, PiecewiseLinearTwist, SumTwist, TableTwist, TwistLaw
+from rotor.design import (
+    Harmonic,
+    IdealTwist,
+    LinearTwist,
+    PiecewiseLinearTwist,
+    SumTwist,
+    TableTwist,
+    TwistLaw,
+)
 from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
 from rotor.design.twist import SpecTwist
 from rotor.files.rotor_file import shipped_aircraft
@@ -31,7 +39,9 @@ def against(design: Design, reference: Design, pinned: bool) -> str:
     if design.rotor.blade.carried is not None:
         return baseline_title(design, reference)
     built = baseline_of(design).twist == design.rotor.builtin_twist
-    return f"{design.aircraft.name} as built" if built else design.aircraft.twist_title(design.preset)
+    return (
+        f"{design.aircraft.name} as built" if built else design.aircraft.twist_title(design.preset)
+    )
 
 
 def wave_words(design: Design) -> str:
@@ -47,7 +57,9 @@ def harmonic_words(twist: tuple[Harmonic, ...], pitch: tuple[Harmonic, ...]) -> 
         return f"{amplitude}° at {harmonic.per_rev}/rev (phase {phase:.0f}°)"
 
     kinds = (("active twist", twist), ("root pitch", pitch))
-    return " and ".join(f"{kind} of {listed([words(wave) for wave in waves])}" for kind, waves in kinds if waves)
+    return " and ".join(
+        f"{kind} of {listed([words(wave) for wave in waves])}" for kind, waves in kinds if waves
+    )
 
 
 def title_words(design: Design) -> str:
@@ -61,7 +73,10 @@ def twist_name(design: Design) -> str:
     """The twist in a few words, without the numbers that only a program sets: `as built + MFC P1 at 1 155 V`,
     `segments −14/−8 at 0.5`, `40 segments, −12.3° root to tip`; then its harmonics."""
     waves = wave_names(design)
-    few, carried = waves if len(waves) < 3 else [f"{len(waves)} harmonics"], design.rotor.blade.carried
+    few, carried = (
+        waves if len(waves) < 3 else [f"{len(waves)} harmonics"],
+        design.rotor.blade.carried,
+    )
     rests = "" if carried is None or design.twist != design.jig else f" + {carried.name}"
     return ", ".join((_law_name(design.twist, design.rotor) + rests, *few))
 
@@ -87,7 +102,9 @@ def _law_name(law: TwistLaw, rotor: Rotor) -> str:
             return f"linear {_degrees(rate)}\u00a0°/R"
         case PiecewiseLinearTwist(rates, breaks) if len(rates) <= FEW_SEGMENTS:
             places = "/".join(f"{place:.2f}".rstrip("0") for place in breaks)
-            return f"segments {'/'.join(map(_degrees, rates))}" + (f" at {places}" if places else "")
+            return f"segments {'/'.join(map(_degrees, rates))}" + (
+                f" at {places}" if places else ""
+            )
         case PiecewiseLinearTwist(rates):
             return f"{len(rates)} segments, {angle}"
         case IdealTwist(tip_pitch):
@@ -101,7 +118,9 @@ def _law_name(law: TwistLaw, rotor: Rotor) -> str:
 def flight_words(design: Design, units: Units = SI) -> str:
     """Speed, climb, rotor speed, mass and altitude in one line."""
     condition = design.condition
-    speeds = " · ".join(unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND)
+    speeds = " · ".join(
+        unit.text(design.airspeed) for unit in units.speed if unit is not METRE_PER_SECOND
+    )
     where = "Hover" if design.hovering else f"µ {number(condition.advance_ratio, 3)} · {speeds}"
     beside = units.unusual(design)
     if (stand := stand_of(design)) is not None:
@@ -149,9 +168,17 @@ def physics_words(design: Design) -> str:
 def flight_name(inputs: Inputs, units: Units = SI) -> str:
     """The flight condition: `µ 0.25, 8.32 t`, altitude above sea level, and the effects switched off."""
     speed = f"µ {inputs.advance_ratio:g}" if inputs.advance_ratio else "hover"
-    off = "".join(f", no {switch.title.lower()}" for name, switch in SWITCHES.items() if not getattr(inputs, name))
+    off = "".join(
+        f", no {switch.title.lower()}"
+        for name, switch in SWITCHES.items()
+        if not getattr(inputs, name)
+    )
     off += "".join(f", {QUANTITIES[name].short}" for name in OPTIONS if getattr(inputs, name))
-    beside = [units.in_words(row, getattr(inputs, row.input)) for row in UNUSUAL.values() if inputs.counts(row)]
+    beside = [
+        units.in_words(row, getattr(inputs, row.input))
+        for row in UNUSUAL.values()
+        if inputs.counts(row)
+    ]
     speed = ", ".join(filter(None, (speed, *beside)))
     if inputs.stand is not None:
         return f"{speed}, {stand_words(inputs.stand)}{off}"

@@ -24,7 +24,9 @@ class Term:
     def text(self) -> str:
         if self.equations:
             name = "Eq." if len(self.equations) == 1 else "Eqs."
-            return f"{self.sentence} {name} {', '.join(f'({number})' for number in self.equations)}."
+            return (
+                f"{self.sentence} {name} {', '.join(f'({number})' for number in self.equations)}."
+            )
         return f"{self.sentence} Theory, section {self.section}." if self.section else self.sentence
 
 

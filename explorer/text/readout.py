@@ -21,7 +21,12 @@ from rotor.support.markup import Content, Markup, tag
 from rotor.trim.doubt import Doubt, change_decimals, sureness
 from rotor.trim.solution import ElasticTwist
 
-PART_TITLES = {"induced": "Induced", "profile": "Profile", "parasite": "Parasite", "tail": "Tail rotor"}
+PART_TITLES = {
+    "induced": "Induced",
+    "profile": "Profile",
+    "parasite": "Parasite",
+    "tail": "Tail rotor",
+}
 _ON_A_STAND = {"induced": "Induced", "profile": "Profile", "parasite": "Propulsive"}
 _MEANT = {"Propulsive": "propulsive"}
 """Names in the glossary of titles that mean something else than their part in flight."""
@@ -41,7 +46,9 @@ def part_titles(*designs: Design) -> dict[str, str]:
     return {name: titles[name] for name in PARTS if name in titles}
 
 
-def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI, band: Doubt | None = None) -> Markup:
+def power_panel(
+    solution: Solution, baseline: Solution | None, units: Units = SI, band: Doubt | None = None
+) -> Markup:
     """Total power with its change, and the table of parts."""
     power = solution.power
     reference = baseline.power if baseline is not None and baseline.converged else None
@@ -53,7 +60,12 @@ def power_panel(solution: Solution, baseline: Solution | None, units: Units = SI
 
 
 def _panel(
-    solution: Solution, reference: PowerBudget | None, words: Content, table: Markup, units: Units, band: Doubt | None
+    solution: Solution,
+    reference: PowerBudget | None,
+    words: Content,
+    table: Markup,
+    units: Units,
+    band: Doubt | None,
 ) -> Markup:
     """`words`: below the total, what it is and what it is compared with."""
     power = solution.power
@@ -86,14 +98,19 @@ def ideal_induced(solution: Solution) -> float | None:
 
 def ideal_line(solution: Solution, ideal: float | None, units: Units = SI) -> Markup:
     """κ and its ideal bound; ideal: least induced power [W]."""
-    kappa = "κ = Pi/(CT·λ0) ", tag("b", number(solution.induced_power_factor, 2), data_explorer="kappa")
+    kappa = (
+        "κ = Pi/(CT·λ0) ",
+        tag("b", number(solution.induced_power_factor, 2), data_explorer="kappa"),
+    )
     bound: Content = f"ideal: {not_bounded(solution.design)}"
     if ideal is not None and solution.induced_power_factor:
         theory = " (momentum theory)" if solution.design.hovering else ""
         least = solution.induced_power_factor * ideal / solution.power.induced
         power, factor = tag("b", units.watts(ideal)), f", κ {number(least, 2)}{theory}"
         bound = "ideal ", power, factor
-    return tag("div.rx-line.rx-dim.rx-kappa", tag("span", kappa), tag("span", bound), title=tip("kappa"))
+    return tag(
+        "div.rx-line.rx-dim.rx-kappa", tag("span", kappa), tag("span", bound), title=tip("kappa")
+    )
 
 
 def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None = None) -> Markup:
@@ -114,7 +131,12 @@ def change_kind(change: float, word: str | None) -> Literal["", "less", "more"]:
 
 
 def part_change(
-    name: str, power: PowerBudget, reference: PowerBudget, band: Doubt | None, units: Units, digits: int = 1
+    name: str,
+    power: PowerBudget,
+    reference: PowerBudget,
+    band: Doubt | None,
+    units: Units,
+    digits: int = 1,
 ) -> tuple[str, str]:
     """Change of a part of power, or of the `total`, with its band and whether its sign is known: `−12 ± 4`, `sure`.
 
@@ -125,7 +147,9 @@ def part_change(
     within = bands.get(name)
     if not within or max(abs(unit.of(change)), unit.of(within)) < 0.05:
         return number(unit.of(change), digits, sign=True), ""
-    size, word = banded(change, within, units, sign=True, sourced=band is None or band.sourced).split(": ")
+    size, word = banded(
+        change, within, units, sign=True, sourced=band is None or band.sourced
+    ).split(": ")
     return size.removesuffix(f" {unit.symbol}"), word
 
 
@@ -144,11 +168,18 @@ def _fineness(total: float, units: Units) -> int:
 
 
 def _row(
-    name: str, title: str, power: PowerBudget, reference: PowerBudget | None, units: Units, band: Doubt | None
+    name: str,
+    title: str,
+    power: PowerBudget,
+    reference: PowerBudget | None,
+    units: Units,
+    band: Doubt | None,
 ) -> Markup:
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
-    apart, word = (BLANK, "") if reference is None else part_change(name, power, reference, band, units)
+    apart, word = (
+        (BLANK, "") if reference is None else part_change(name, power, reference, band, units)
+    )
     return tag(
         "tr",
         tag("td", patch(PARTS[name]), title),
@@ -172,7 +203,13 @@ def patch(colour: str) -> Markup:
 
 _TrimRow = tuple[str, str, int, str, Callable[[Solution], float | None]]
 TRIM_ROWS: dict[str, _TrimRow] = {
-    "collective": ("Collective θ0", "θ0 [°]", 2, "°", lambda s: math.degrees(s.controls.collective)),
+    "collective": (
+        "Collective θ0",
+        "θ0 [°]",
+        2,
+        "°",
+        lambda s: math.degrees(s.controls.collective),
+    ),
     "shaft_tilt": ("Shaft tilt α", "α [°]", 2, "°", lambda s: math.degrees(s.controls.shaft_tilt)),
     "cyclic_1c": ("Cyclic θ1c", "θ1c [°]", 2, "°", lambda s: math.degrees(s.controls.cyclic_1c)),
     "coning": ("Coning β0", "β0 [°]", 2, "°", lambda s: math.degrees(s.controls.coning)),
@@ -183,10 +220,28 @@ TRIM_ROWS: dict[str, _TrimRow] = {
     "kappa": ("", "κ", 2, "", lambda s: s.induced_power_factor),
     "figure_of_merit": ("Figure of merit", "FM", 3, "", lambda s: s.figure_of_merit),
     "lift_to_drag": ("Rotor L/De", "L/De", 2, "", lambda s: s.lift_to_drag),
-    "reverse_flow_area": ("Reverse flow", "rev. [%]", 1, " %", lambda s: 100.0 * s.reverse_flow_area),
+    "reverse_flow_area": (
+        "Reverse flow",
+        "rev. [%]",
+        1,
+        " %",
+        lambda s: 100.0 * s.reverse_flow_area,
+    ),
     "stalled_area": ("Stalled area", "stall [%]", 1, " %", lambda s: 100.0 * s.stalled_area),
-    "elastic_tip": ("Elastic tip", "φ tip [°]", 2, "°", lambda s: _elastic(s, lambda e: np.degrees(e.tip.mean()))),
-    "elastic_wave": ("Elastic 1/rev", "", 2, "°", lambda s: _elastic(s, lambda e: math.degrees(e.first_harmonic))),
+    "elastic_tip": (
+        "Elastic tip",
+        "φ tip [°]",
+        2,
+        "°",
+        lambda s: _elastic(s, lambda e: np.degrees(e.tip.mean())),
+    ),
+    "elastic_wave": (
+        "Elastic 1/rev",
+        "",
+        2,
+        "°",
+        lambda s: _elastic(s, lambda e: math.degrees(e.first_harmonic)),
+    ),
     "pitch_link": (
         "Pitch link",
         "link [kN]",
@@ -218,7 +273,10 @@ def _trim_rows(solution: Solution) -> list[tuple[str, _TrimRow]]:
 
 def trim_panel(solution: Solution) -> Markup:
     """Trim angles, loading, efficiency and areas, in two columns."""
-    flapping = (number(math.degrees(angle), 1) for angle in (solution.controls.flap_1c, solution.controls.flap_1s))
+    flapping = (
+        number(math.degrees(angle), 1)
+        for angle in (solution.controls.flap_1c, solution.controls.flap_1s)
+    )
     cells: list[Markup] = []
     for key, (title, _, digits, unit, read) in _trim_rows(solution):
         value = read(solution)
@@ -229,7 +287,14 @@ def trim_panel(solution: Solution) -> Markup:
             words, entry = f"{', '.join(flapping)}°", "flapping_1"
         elif value is None:
             words = "rigid" if key == "elastic_tip" else BLANK
-        cells.append(tag("div.rx-line", tag("span.rx-dim", title), tag("span.rx-num", words), title=tip(entry)))
+        cells.append(
+            tag(
+                "div.rx-line",
+                tag("span.rx-dim", title),
+                tag("span.rx-num", words),
+                title=tip(entry),
+            )
+        )
     return tag("div.rx.rx-grid", cells, data_explorer="trim")
 
 
@@ -249,7 +314,9 @@ def faded(html: Markup) -> Markup:
     return tag("div.rx-faded", html)
 
 
-def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI, band: Doubt | None = None) -> Markup:
+def compared_power_panel(
+    solution: Solution, pinned: Solution, units: Units = SI, band: Doubt | None = None
+) -> Markup:
     """Total power with its change relative to A, and the parts of both.
 
     Where A has no trim it shows dashes.
@@ -258,45 +325,81 @@ def compared_power_panel(solution: Solution, pinned: Solution, units: Units = SI
     reference = pinned.power if pinned.converged else None
     against = f", {units.watts(reference.total)}" if reference else ": no trim at this condition"
     titles = {**part_titles(solution.design, pinned.design), "total": "Total"}
-    rows = [_compared_row(title, name, power, reference, units, band) for name, title in titles.items()]
+    rows = [
+        _compared_row(title, name, power, reference, units, band) for name, title in titles.items()
+    ]
     symbol = units.power[0].symbol
     head = _cells(symbol, (_name("A"), _name("B"), f"Δ {symbol}", ""), "rx-dim rx-small")
     compared = tag("span", "vs. " if reference else None, _name("A"), against)
     words = tag("span", "total power of ", _name("B")), compared
-    return _panel(solution, reference, words, tag("table.rx-ab", head, rows, data_explorer="ab"), units, band)
+    return _panel(
+        solution, reference, words, tag("table.rx-ab", head, rows, data_explorer="ab"), units, band
+    )
 
 
 def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:
     """Trim angles, loading, efficiency and areas of A and B, in two columns."""
-    head = tag("div.rx-four.rx-dim.rx-small", tag("span"), tag("span", _name("A")), tag("span", _name("B")))
+    head = tag(
+        "div.rx-four.rx-dim.rx-small", tag("span"), tag("span", _name("A")), tag("span", _name("B"))
+    )
     cells = [head, head]
     for key, (_, short, digits, _, read) in _trim_rows(solution):
         if not short:
             continue
-        a, b = number(read(pinned) if pinned.converged else None, digits), number(read(solution), digits)
-        cells.append(tag("div.rx-four", tag("span.rx-dim", short), tag("span", a), tag("span", b), title=tip(key)))
+        a, b = (
+            number(read(pinned) if pinned.converged else None, digits),
+            number(read(solution), digits),
+        )
+        cells.append(
+            tag(
+                "div.rx-four",
+                tag("span.rx-dim", short),
+                tag("span", a),
+                tag("span", b),
+                title=tip(key),
+            )
+        )
     return tag("div.rx.rx-grid", cells, data_explorer="trim")
 
 
 def _name(letter: str) -> Markup:
     """A or B with the mark of its lines in the charts."""
-    return dash(PINNED, dashed=True) + tag("b", letter) if letter == "A" else dash(THIS) + tag("b", letter)
+    return (
+        dash(PINNED, dashed=True) + tag("b", letter)
+        if letter == "A"
+        else dash(THIS) + tag("b", letter)
+    )
 
 
 def _compared_row(
-    title: str, part: str, power: PowerBudget, reference: PowerBudget | None, units: Units, band: Doubt | None
+    title: str,
+    part: str,
+    power: PowerBudget,
+    reference: PowerBudget | None,
+    units: Units,
+    band: Doubt | None,
 ) -> Markup:
     b = units.power[0].of(getattr(power, part))
     a = None if reference is None else units.power[0].of(getattr(reference, part))
     changes = (BLANK, "") if reference is None else part_change(part, power, reference, band, units)
     fine = fineness(power, units)
     if part != "total":
-        return _cells(patch(PARTS[part]) + title, (number(a, fine), number(b, fine), *changes), tooltip=tip(part))
+        return _cells(
+            patch(PARTS[part]) + title,
+            (number(a, fine), number(b, fine), *changes),
+            tooltip=tip(part),
+        )
     return _cells(title, (number(a, fine), number(b, fine), *changes), "rx-sum", tip("total_power"))
 
 
 def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | None = None) -> Markup:
-    return tag("tr", tag("td", title), [tag("td.rx-num", value) for value in values], class_=kind, title=tooltip)
+    return tag(
+        "tr",
+        tag("td", title),
+        [tag("td.rx-num", value) for value in values],
+        class_=kind,
+        title=tooltip,
+    )
 
 
 def digits_of(power: float, units: Units, band: float | None = None) -> int:
@@ -335,9 +438,13 @@ def balance(
     unit, digits = units.power[0], digits_of(sum(power for _, power in savings), units, band)
     exact = [-unit.of(power) for _, power in savings]
     written = adding(exact, digits)
-    names = [{"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings]
+    names = [
+        {"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings
+    ]
     within = (*(bands or [0.0] * len(savings)), band or 0.0)
-    rows = zip((*names, "total"), (*exact, sum(exact)), (*written, sum(written)), within, strict=True)
+    rows = zip(
+        (*names, "total"), (*exact, sum(exact)), (*written, sum(written)), within, strict=True
+    )
     return [
         BalanceRow(
             name, value, number(shown, digits, sign=True), unit.of(sure),
@@ -360,7 +467,9 @@ def needs(verdict: Verdict, units: Units) -> str:
 def change_sizes(change: float, band: float | None, units: Units) -> tuple[str, str]:
     """A change of power [W] without its sign, and its band [W]: `28`, ` ± 3`; empty without a band."""
     unit, digits = units.power[0], digits_of(change, units, band)
-    return number(abs(unit.of(change)), digits), "" if band is None else f" ± {number(unit.of(band), digits)}"
+    return number(
+        abs(unit.of(change)), digits
+    ), "" if band is None else f" ± {number(unit.of(band), digits)}"
 
 
 def needs_words(net: float, band: float | None, units: Units, sourced: bool = True) -> str:
@@ -374,7 +483,13 @@ _FUEL = Unit("kg/h of fuel", 1.0 / 3600.0)
 
 
 def banded(
-    change: float, band: float, units: Units | Unit, *, least: int = 0, sign: bool = False, sourced: bool = True
+    change: float,
+    band: float,
+    units: Units | Unit,
+    *,
+    least: int = 0,
+    sign: bool = False,
+    sourced: bool = True,
 ) -> str:
     """A change, of power in these units [W], with its band and whether its sign is known: `4.2 ± 1.8 kW: sure`."""
     unit = units if isinstance(units, Unit) else units.power[0]
@@ -399,7 +514,9 @@ def mass_parts(installed: InstalledActuator) -> dict[str, str]:
     }
     digits = 0 if masses.aircraft >= 10.0 else 1
     values = adding(list(parts.values()), digits)
-    words = {name: number(value, digits) for name, value in zip(parts, values, strict=True) if value}
+    words = {
+        name: number(value, digits) for name, value in zip(parts, values, strict=True) if value
+    }
     return {**words, "in all": f"{number(sum(values), digits)} kg"}
 
 

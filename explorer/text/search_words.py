@@ -21,13 +21,17 @@ def headline(run: SearchRun, units: Units = SI) -> Markup:
     kind = change and change_kind(change, sure)
     objective = run.search.objective
     several = objective is not None and len(objective.conditions) > 1
-    mean = "mean power" if several else f"{'total' if objective is None else objective.quantity} power"
+    mean = (
+        "mean power" if several else f"{'total' if objective is None else objective.quantity} power"
+    )
     mean += ", best so far" if run.under_way else ", best found"
     return tag(
         "div.rxp-big",
         tag("b", total_words(best.power, units), data_explorer="best"),
         tag(
-            "em", None if change is None else _moved(change, run.optimum, units), class_=f"rx-{kind}" if kind else None
+            "em",
+            None if change is None else _moved(change, run.optimum, units),
+            class_=f"rx-{kind}" if kind else None,
         ),
         tag("div.rx-dim", mean, "" if run.start_power else "; the starting design has no trim"),
     )
@@ -40,7 +44,11 @@ def standing(run: SearchRun | None, problem: str = "") -> Markup:
     if run is None:
         return tag("div.rx.rx-dim", "Not run yet.", data_explorer="search", data_kind="idle")
     progress = run.progress
-    count = "" if progress is None else f"{number(progress.evaluation)} designs · {number(progress.elapsed, 1)} s"
+    count = (
+        ""
+        if progress is None
+        else f"{number(progress.evaluation)} designs · {number(progress.elapsed, 1)} s"
+    )
     if run.optimum is not None:
         count = f"{number(run.optimum.evaluations)} designs · {number(run.optimum.elapsed, 1)} s"
     where = tag("span", _where(run)), tag("span.rx-dim.rx-num", count)
@@ -58,7 +66,11 @@ def _where(run: SearchRun) -> str:
 def _moved(change: float, optimum: Optimum | None, units: Units) -> str:
     """The change from the start [W]; with its band once the search has ended."""
     band = None if optimum is None or optimum.doubt is None else optimum.doubt.change_band
-    return units.watts(change, 1, sign=True) if band is None else banded(change, band, units, least=1, sign=True)
+    return (
+        units.watts(change, 1, sign=True)
+        if band is None
+        else banded(change, band, units, least=1, sign=True)
+    )
 
 
 def result(run: SearchRun) -> Markup:
@@ -114,9 +126,13 @@ def _optimum(optimum: Optimum, concept: Concept, units: Units) -> list[Markup]:
         unit = tag("td.rx-dim.rx-unit", parameter.shown_unit)
         rows.append(tag("tr", tag("td", parameter.title), shown, unit))
     if ranges and optimum.doubt_cost is not None:
-        moved = "; ".join(_range(parameter, ranges[parameter.name]) for parameter in concept.parameters)
+        moved = "; ".join(
+            _range(parameter, ranges[parameter.name]) for parameter in concept.parameters
+        )
         notes.append(f"With other inputs or inflow: {moved}.")
-        notes.append(f"The best twist would then need about {units.watts(optimum.doubt_cost, 1)} less than this one.")
+        notes.append(
+            f"The best twist would then need about {units.watts(optimum.doubt_cost, 1)} less than this one."
+        )
     if best.active:
         notes.append(f"Active limits: {', '.join(name.replace('_', ' ') for name in best.active)}.")
     if best.index is not None:

@@ -19,7 +19,9 @@ from rotor.validation.flown import POWER_REPORTS
 from rotor.validation.trust import KINDS
 
 
-def status_panel(solution: Solution | None, problem: str | None = None, pinned: Solution | None = None) -> Markup:
+def status_panel(
+    solution: Solution | None, problem: str | None = None, pinned: Solution | None = None
+) -> Markup:
     """A box of constant height: convergence, caveats, and the models used.
 
     `pinned`: A, whose caveats are added where two designs are compared.
@@ -28,10 +30,16 @@ def status_panel(solution: Solution | None, problem: str | None = None, pinned: 
         problem = solution.message
     if problem is not None:
         # In full, even if it is a line longer than the box: the numbers below are out of date anyway.
-        return _status("problem", tag("div.rx-sentence", f"{problem.rstrip('.')}. Greyed: last converged solution."))
+        return _status(
+            "problem",
+            tag("div.rx-sentence", f"{problem.rstrip('.')}. Greyed: last converged solution."),
+        )
     if solution is None:
         return _status("waiting", f"{compiling() or 'Computing the first trim'} …")
-    caveats = [tag("div.rx-care", tag("span", "▲"), tag("span", text)) for text in cautions(solution, pinned)]
+    caveats = [
+        tag("div.rx-care", tag("span", "▲"), tag("span", text))
+        for text in cautions(solution, pinned)
+    ]
     count = f"{solution.passes} iteration{'' if solution.passes == 1 else 's'}"
     residual = f"Force residual < {tiny(solution.residual)} ", tag("i", "W"), f", {count}."
     text = tag("div", tag("span.rx-good", "●"), f" {solution.message} ", residual)
@@ -50,9 +58,13 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
     a, b = pinned.design, solution.design
     apart = []
     if a.condition != b.condition:
-        apart.append("A and B fly in different conditions, so the design alone does not explain the difference.")
+        apart.append(
+            "A and B fly in different conditions, so the design alone does not explain the difference."
+        )
     if (a.preset, a.models) != (b.preset, b.models):
-        apart.append("A and B use different models, so the blade alone does not explain the difference.")
+        apart.append(
+            "A and B use different models, so the blade alone does not explain the difference."
+        )
     return [
         *apart,
         *(sentence for sentence in sentences if sentence in other),
@@ -81,11 +93,15 @@ def provenance(solution: Solution) -> Markup:
         f": {inflow_words(design)}, {' / '.join(sections)}, {physics_words(design)}, "
         f"{' × '.join(map(str, grid_of(design)))} grid, {time}. Indicative: a model, not a measurement."
     )
-    return tag("div.rx-small.rx-dim", "Preset ", tag("i", design.preset), words, data_explorer="provenance")
+    return tag(
+        "div.rx-small.rx-dim", "Preset ", tag("i", design.preset), words, data_explorer="provenance"
+    )
 
 
 def section_title(section: str) -> str:
-    return SECTIONS.get(section) or ("SC1095 polynomials" if section.startswith("sc1095-thesis") else section)
+    return SECTIONS.get(section) or (
+        "SC1095 polynomials" if section.startswith("sc1095-thesis") else section
+    )
 
 
 def _status(kind: str, *content: Content) -> Markup:
@@ -139,19 +155,28 @@ def validated(solution: Solution) -> ValidationRecord:
     row = row_of(measured, design.models.hover_inflow if design.hovering else design.models.inflow)
     report = f"{measured.title}, {measured.report}"
     if row is None:
-        sentence = _printed(f"Not compared with this inflow model. Measured: {report}.", measured.note)
+        sentence = _printed(
+            f"Not compared with this inflow model. Measured: {report}.", measured.note
+        )
         return ValidationRecord("not compared with this inflow", sentence, measured)
     outside = beyond(measured, solution)
     parts = [f"Compared with measurement: {row.shown} ({report}).", row.remark]
     if outside:
         parts.insert(0, f"Outside the tested range: {outside}.")
     if design.twist != design.rotor.builtin_twist or design.active_twist is not None:
-        parts.append("The measured blade has the twist as built; we know of no measurement with this twist.")
+        parts.append(
+            "The measured blade has the twist as built; we know of no measurement with this twist."
+        )
     if design.pitch_per_rev:
         parts.append("The test used collective and cyclic only.")
     parts.append(measured.note)
-    size, error = "within" if measured.name == _DIGITISED else "rms", 0.0 if row.error is None else abs(row.error)
-    words = "outside the test range" if outside else f"measured: {size} {number(100.0 * error, 1)} %"
+    size, error = (
+        "within" if measured.name == _DIGITISED else "rms",
+        0.0 if row.error is None else abs(row.error),
+    )
+    words = (
+        "outside the test range" if outside else f"measured: {size} {number(100.0 * error, 1)} %"
+    )
     return ValidationRecord(words, _printed(*parts), measured)
 
 
@@ -164,23 +189,32 @@ def _printed(*parts: str) -> str:
 def _flown(solution: Solution) -> ValidationRecord | None:
     """What was measured of this rotor in flight, or of its airloads in a tunnel; None where neither was."""
     design = solution.design
-    key, blade = design.aircraft.key, "" if as_measured(design) else " The measured blade has the twist as built."
+    key, blade = (
+        design.aircraft.key,
+        "" if as_measured(design) else " The measured blade has the twist as built.",
+    )
     powers, cases = flight_powers(key), airload_cases(key)
     what = "pitch-link load" if cases and cases[0].test == PITCH_LINK else "airloads"
     airloads = "" if not cases else f" The probe shows its measured {what}."
     if powers and not design.hovering and design.condition.stand is None:
         report = POWER_REPORTS[key]
-        count = f"{len(powers)} flights at µ {powers[0].mu:g} to {max(power.mu for power in powers):g}"
+        count = (
+            f"{len(powers)} flights at µ {powers[0].mu:g} to {max(power.mu for power in powers):g}"
+        )
         here = next((power for power in powers if power.same_flight(design)), None)
         if here is None or blade:
-            return ValidationRecord("measured in flight", f"Power was measured in {count}: {report}.{blade}{airloads}")
+            return ValidationRecord(
+                "measured in flight", f"Power was measured in {count}: {report}.{blade}{airloads}"
+            )
         percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
         words = f"measured: {number(percent, 1, sign=True)} % ({here.case})"
         kilowatts = f"{number(solution.power.main_rotor / 1e3, 1)} kW, measured {number(here.power / 1e3, 1)} kW"
         return ValidationRecord(words, f"Main rotor: computed {kilowatts} ({report}).{airloads}")
     if cases and design.condition.stand is not None and not design.hovering:
         report = REPORTS[cases[0].test]
-        sentence = f"Its power was not measured. {what[0].upper()}{what[1:]}: {report}.{blade}{airloads}"
+        sentence = (
+            f"Its power was not measured. {what[0].upper()}{what[1:]}: {report}.{blade}{airloads}"
+        )
         return ValidationRecord(f"{what} measured", sentence)
     return None
 
@@ -191,7 +225,11 @@ def nearest(sets: list[MeasuredSet], solution: Solution) -> MeasuredSet:
     trim = solution.design.models.trim
 
     def apart(measured: MeasuredSet) -> tuple[bool, float, bool]:
-        tilts = [point["shaft_tilt_deg"] for point in measured.points] if "shaft_tilt_deg" in measured.given else [0.0]
+        tilts = (
+            [point["shaft_tilt_deg"] for point in measured.points]
+            if "shaft_tilt_deg" in measured.given
+            else [0.0]
+        )
         tilt = math.degrees(solution.controls.shaft_tilt if stand is None else stand.tilt)
         return measured.trim != trim, min(abs(tilt - other) for other in tilts), measured.indicative
 

@@ -34,7 +34,9 @@ def lift_centroid(solution: Solution) -> tuple[float, float] | None:
     total = float(lift.sum())
     if not total > 0.0:
         return None
-    return float((lift * disk.r[:, None]).sum()) / total, float((lift * np.sin(disk.psi)).sum()) / total
+    return float((lift * disk.r[:, None]).sum()) / total, float(
+        (lift * np.sin(disk.psi)).sum()
+    ) / total
 
 
 def why(before: Solution, after: Solution, units: Units = SI, band: Doubt | None = None) -> str:
@@ -51,7 +53,11 @@ def why(before: Solution, after: Solution, units: Units = SI, band: Doubt | None
     cause = _cause(before, after)
     parts = _changed_parts(before, after, units, band)
     regions = [text for text in (_stall(before, after), _divergence(before, after)) if text]
-    sentence = f"{cause}: {', '.join(parts)}" if parts else f"{cause}: no change in power{_reason(before, after)}"
+    sentence = (
+        f"{cause}: {', '.join(parts)}"
+        if parts
+        else f"{cause}: no change in power{_reason(before, after)}"
+    )
     return "; ".join([sentence, *regions]) + "."
 
 
@@ -79,7 +85,9 @@ def _cause(before: Solution, after: Solution) -> str:
     for kind, (old, new) in (("root pitch", pitched), ("active twist", twisted)):
         if old != new:
             orders = " and ".join(f"{harmonic.per_rev}/rev" for harmonic in new)
-            causes.append(f"{'different ' if old else ''}{kind} at {orders}" if orders else f"no n/rev {kind}")
+            causes.append(
+                f"{'different ' if old else ''}{kind} at {orders}" if orders else f"no n/rev {kind}"
+            )
     if a.twist != b.twist or (a.active_twist != b.active_twist and twisted[0] == twisted[1]):
         # With another rotor or flight the lift moves for their sake too, so it is named only on its own.
         causes = [*causes, "a new twist"] if causes else [lift_movement(before, after)]
@@ -96,22 +104,35 @@ def _rotor_causes(a: Design, b: Design) -> list[str]:
         return []
     if a.rotor.blade.spans != b.rotor.blade.spans:
         return ["different blade sections"]
-    return ["actuators in the blade" if (a.active_twist is None) != (b.active_twist is None) else "a different blade"]
+    return [
+        "actuators in the blade"
+        if (a.active_twist is None) != (b.active_twist is None)
+        else "a different blade"
+    ]
 
 
 def _model_causes(a: Design, b: Design) -> list[str]:
     switched = [name for name in SWITCHES if getattr(a.models, name) != getattr(b.models, name)]
-    causes = [f"{'with' if getattr(b.models, name) else 'without'} {SWITCHES[name].title.lower()}" for name in switched]
+    causes = [
+        f"{'with' if getattr(b.models, name) else 'without'} {SWITCHES[name].title.lower()}"
+        for name in switched
+    ]
     for row in (QUANTITIES[name] for name in OPTIONS):
         if row.of(a) != row.of(b):
             causes.append(f"{'with' if row.of(b) else 'without'} {row.title.lower()}")
     if a.models.inflow != b.models.inflow:
-        causes.append(f"{INFLOW_MODELS[b.models.inflow].title} instead of {INFLOW_MODELS[a.models.inflow].title}")
+        causes.append(
+            f"{INFLOW_MODELS[b.models.inflow].title} instead of {INFLOW_MODELS[a.models.inflow].title}"
+        )
     if a.models.hover_inflow != b.models.hover_inflow:
-        new, old = (INFLOW_MENUS["hover_inflow"][design.models.hover_inflow].lower() for design in (b, a))
+        new, old = (
+            INFLOW_MENUS["hover_inflow"][design.models.hover_inflow].lower() for design in (b, a)
+        )
         causes.append(f"{new} instead of {old} in hover")
     if a.models.low_speed != b.models.low_speed:
-        causes.append(f"{'with' if b.models.low_speed == 'hover' else 'without'} transition to hover at low speed")
+        causes.append(
+            f"{'with' if b.models.low_speed == 'hover' else 'without'} transition to hover at low speed"
+        )
     if a.models.loss_on != b.models.loss_on:
         causes.append(f"tip and root loss on the {b.models.loss_on}")
     return causes
@@ -124,7 +145,9 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
         way = "faster" if new.advance_ratio > old.advance_ratio else "slower"
         causes.append("hover" if b.hovering else f"{way} (µ {new.advance_ratio:g})")
     if old.stand != new.stand:
-        began = "flight instead of a test" if new.stand is None else "the rotor alone, on a test stand"
+        began = (
+            "flight instead of a test" if new.stand is None else "the rotor alone, on a test stand"
+        )
         causes.append(began if old.stand is None or new.stand is None else "another test")
         return causes
     for row in UNUSUAL.values():
@@ -133,22 +156,33 @@ def _flight_causes(a: Design, b: Design) -> list[str]:
             causes.append(row.plain if now is None else SI.in_words(row, now))
     if old.mass != new.mass:
         percent = 100.0 * (new.mass / old.mass - 1.0)
-        causes.append(f"{number(abs(percent), _digits(percent))} % {'more' if percent > 0.0 else 'less'} weight")
+        causes.append(
+            f"{number(abs(percent), _digits(percent))} % {'more' if percent > 0.0 else 'less'} weight"
+        )
     if old.density != new.density:
         percent = 100.0 * (new.density / old.density - 1.0)
-        causes.append(f"{'denser' if percent > 0.0 else 'thinner'} air ({number(percent, _digits(percent), True)} %)")
+        causes.append(
+            f"{'denser' if percent > 0.0 else 'thinner'} air ({number(percent, _digits(percent), True)} %)"
+        )
     return causes
 
 
-def _changed_parts(before: Solution, after: Solution, units: Units, band: Doubt | None) -> list[str]:
+def _changed_parts(
+    before: Solution, after: Solution, units: Units, band: Doubt | None
+) -> list[str]:
     """At most three parts of power that changed, the largest change first, the unit behind the last."""
     unit = units.power[0]
     titles = part_titles(before.design, after.design)
-    changes = {name: unit.of(getattr(after.power, name) - getattr(before.power, name)) for name in titles}
+    changes = {
+        name: unit.of(getattr(after.power, name) - getattr(before.power, name)) for name in titles
+    }
     largest = max(abs(change) for change in changes.values())
     digits = _digits(largest)
     shown = max(_SMALL_PART * largest, 0.5 * 10.0**-digits)
-    order = sorted((name for name in changes if abs(changes[name]) >= shown), key=lambda name: -abs(changes[name]))
+    order = sorted(
+        (name for name in changes if abs(changes[name]) >= shown),
+        key=lambda name: -abs(changes[name]),
+    )
     powers = after.power, before.power, band, units, digits
     texts = [f"{titles[name].lower()} {part_change(name, *powers)[0]}" for name in order[:3]]
     return [*texts[:-1], f"{texts[-1]} {unit.symbol}"] if texts else []

@@ -78,10 +78,24 @@ def _built(now: PageState) -> "ActuatedBlade | str":
     outcome = outcomes[question.actuator]
     verdict = outcome if isinstance(outcome, Verdict) else None
     flight_task = None if verdict is None else Call(flight_of, (verdict,))
-    line_task = Call(other_stroke, (verdict,)) if verdict is not None and installed.masses.aircraft else None
+    line_task = (
+        Call(other_stroke, (verdict,))
+        if verdict is not None and installed.masses.aircraft
+        else None
+    )
     flight, line = now.answers.get(flight_task), now.answers.get(line_task)
     line = line if isinstance(line, OtherStroke) else None
-    judged = tasks, outcomes, outcome, verdict, flight_task, flight, flight_legs(design), line_task, line
+    judged = (
+        tasks,
+        outcomes,
+        outcome,
+        verdict,
+        flight_task,
+        flight,
+        flight_legs(design),
+        line_task,
+        line,
+    )
     return ActuatedBlade(now, design, installed, inputs, question, *judged)
 
 
@@ -157,14 +171,21 @@ class ActuatedBlade:
         task = self.now.of(flight_doubt)
         doubt = None if task is None else self.now.answers.get(task.key)
         change = flown.power.total - other.power.total + drive
-        band = None if doubt is None or doubt.sureness is None else doubt.change_band  # Less is what trims end at.
+        # Less is what trims end at.
+        band = None if doubt is None or doubt.sureness is None else doubt.change_band
         return PowerChange(change, band, self.built)
 
     @property
     def vibration(self) -> tuple[float, ...] | None:
         """Vibration index in this flight [%] by inflow model; empty without hub loads, None while it is computed."""
         known = self.now.answers.get(self.now.of(effect_call))
-        return known.index if isinstance(known, EffectInFlight) else () if isinstance(known, str) else None
+        return (
+            known.index
+            if isinstance(known, EffectInFlight)
+            else ()
+            if isinstance(known, str)
+            else None
+        )
 
     @property
     def over_flight(self) -> PowerChange | None:
@@ -197,22 +218,37 @@ def counted_from(now: PageState) -> Design | None:
     """
     if not in_actuate(now.ui) or (one := actuated_blade(now)) is None:
         return None
-    return replace(one.design, twist=one.fixed_twist or one.design.twist, active_twist=None, pitch_per_rev=())
+    return replace(
+        one.design, twist=one.fixed_twist or one.design.twist, active_twist=None, pitch_per_rev=()
+    )
 
 
 def compared_trims(now: PageState) -> tuple[Solution, Solution] | None:
     """Solutions of the design shown and of the reference blade; None while either is unknown."""
     state, one = now.state, actuated_blade(now)
-    if now.problem or state is None or one is None or one.fixed_twist is None or not state.baseline.converged:
+    if (
+        now.problem
+        or state is None
+        or one is None
+        or one.fixed_twist is None
+        or not state.baseline.converged
+    ):
         return None
-    known = state.solution.design.rotor.blade.carried is not None and state.baseline.design.twist == one.fixed_twist
+    known = (
+        state.solution.design.rotor.blade.carried is not None
+        and state.baseline.design.twist == one.fixed_twist
+    )
     return (state.solution, state.baseline) if known else None
 
 
 def flight_doubt(now: PageState) -> PanelWork | None:
     """How sure the change of power in this flight is; the power card asks the same unless A is pinned."""
     trims = now.of(compared_trims)
-    return None if trims is None or trims[0].design == trims[1].design else doubt_work("doubt", *trims, now.analyses)
+    return (
+        None
+        if trims is None or trims[0].design == trims[1].design
+        else doubt_work("doubt", *trims, now.analyses)
+    )
 
 
 def fitted(now: PageState) -> FittedBlade | None:
@@ -224,7 +260,11 @@ def fitted(now: PageState) -> FittedBlade | None:
 def effect_call(now: PageState) -> Call | None:
     """Trims with blades that bend, of what the page shows and of the blade compared with: for vibration."""
     trims = now.of(compared_trims)
-    return None if trims is None else Call(effect, (bending(trims[0].design), bending(trims[1].design)))
+    return (
+        None
+        if trims is None
+        else Call(effect, (bending(trims[0].design), bending(trims[1].design)))
+    )
 
 
 def still_work(now: PageState) -> PanelWork | None:
@@ -234,7 +274,10 @@ def still_work(now: PageState) -> PanelWork | None:
     flown = now.state.solution
     still = replace(flown.design, active_twist=None)
     return PanelWork(
-        "still", (still,), as_one_step(lambda: flown if flown.design == still else solve(still, flown)), soon=True
+        "still",
+        (still,),
+        as_one_step(lambda: flown if flown.design == still else solve(still, flown)),
+        soon=True,
     )
 
 
@@ -253,9 +296,17 @@ def per_rev_power(now: PageState) -> tuple[float, float] | None:
 
 def drive_power(now: PageState) -> float | None:
     """Power that the drive takes in this flight [W]: held, and at n/rev; None where that is not known."""
-    verdict = one.verdict if (one := actuated_blade(now)) is not None and now.hand.actuator.driven else None
+    verdict = (
+        one.verdict
+        if (one := actuated_blade(now)) is not None and now.hand.actuator.driven
+        else None
+    )
     per_rev = now.of(per_rev_power)
-    return None if per_rev is None else per_rev[1] + (0.0 if verdict is None else verdict.drive.hold_power)
+    return (
+        None
+        if per_rev is None
+        else per_rev[1] + (0.0 if verdict is None else verdict.drive.hold_power)
+    )
 
 
 def per_rev_heat(now: PageState) -> float:
@@ -263,7 +314,10 @@ def per_rev_heat(now: PageState) -> float:
     if (on_blade := now.of(fitted)) is None:
         return 0.0
     losses = dict(zip(HARMONICS, on_blade.losses, strict=True))
-    return sum(losses.get(each.per_rev, 0.0) * math.degrees(each.amplitude) ** 2 for each in now.inputs.twist_per_rev)
+    return sum(
+        losses.get(each.per_rev, 0.0) * math.degrees(each.amplitude) ** 2
+        for each in now.inputs.twist_per_rev
+    )
 
 
 def parts_call(now: PageState) -> Call | None:
@@ -286,7 +340,10 @@ def saving_parts(now: PageState) -> tuple[tuple[str, float, float], ...]:
     steps = pairwise(cast("tuple[tuple[float, float], ...]", found))
     named = zip(("blade", "gross", "stiffness", "mass"), steps, strict=True)
     parts = [(name, before - after, band) for name, ((before, _), (after, band)) in named]
-    return (*(part for part in parts if part[1] or part[0] in ("gross", "mass")), ("drive", 0.0 - drive, 0.0))
+    return (
+        *(part for part in parts if part[1] or part[0] in ("gross", "mass")),
+        ("drive", 0.0 - drive, 0.0),
+    )
 
 
 def no_verdict(now: PageState) -> str:

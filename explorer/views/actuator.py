@@ -38,7 +38,11 @@ def asks(now: PageState) -> tuple[Questions, ...]:
     flown = one.flight is not None or isinstance(one.outcome, str)
     flight = () if one.flight_task is None else (one.flight_task,)
     beside = tuple(others) if flown and now.hand.on_stage else ()
-    return Questions(3, (first,), _DELAY_S), Questions(4, flight, 0.0), Questions(7, beside, _IDLE_DELAY_S)
+    return (
+        Questions(3, (first,), _DELAY_S),
+        Questions(4, flight, 0.0),
+        Questions(7, beside, _IDLE_DELAY_S),
+    )
 
 
 def view(now: PageState) -> dict[str, Any]:
@@ -77,7 +81,10 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
             "stiffness": inputs.blade == "new",
         },
         {
-            **{name: f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]" for k, name in enumerate(DRIVES)},
+            **{
+                name: f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]"
+                for k, name in enumerate(DRIVES)
+            },
             "crossed": "Fibres at −45°" if actuator.on_skin else "Turns the tip down",
             "plies": f"{actuator.noun[1].capitalize()}{' per side' if actuator.on_skin else ''}",
             "span": "Span {:.2f}–{:.2f}".format(*inputs.span),
@@ -89,7 +96,11 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
 
 def _form(now: PageState, one: ActuatedBlade | None) -> dict[str, FormLook]:
     """The widgets; for a rotor that carries no actuator as on the blade that does, and inert."""
-    design, inputs, installed = now.sliders, now.hand.actuator, None if one is None else one.installed
+    design, inputs, installed = (
+        now.sliders,
+        now.hand.actuator,
+        None if one is None else one.installed,
+    )
     fits = design is None or design.aircraft.key == KNOWN_BLADE
     if design is not None and not fits:
         with suppress(ValueError):
@@ -110,7 +121,9 @@ def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:
     start, whole = now.hand.pulled
     if not start:  # It was not taken.
         return ()
-    drives = tuple(min(max(drive + share * whole, inputs.least_drive), _FULL_DRIVE) for drive in start)
+    drives = tuple(
+        min(max(drive + share * whole, inputs.least_drive), _FULL_DRIVE) for drive in start
+    )
     return (SetHand(BY_HAND, {"drives": drives}),)
 
 

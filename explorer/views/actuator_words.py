@@ -26,7 +26,11 @@ def voltage_bar(actuator: Actuator) -> Markup:
     low, high = actuator.drive_range
     stops = ",".join(css(drive_colour(actuator, k / 8.0)) for k in range(-8 if low else 0, 9))
     marks = ((0.0, low), (50.0, 0.5 * high), (100.0, high))
-    marks = ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high)) if low else marks
+    marks = (
+        ((0.0, low), (25.0, 0.5 * low), (50.0, 0.0), (75.0, 0.5 * high), (100.0, high))
+        if low
+        else marks
+    )
     ticks: list[Markup] = []
     for at, value in marks:
         words = f"{number(value)} {actuator.drive_unit}" if at == 100.0 else number(value)
@@ -38,17 +42,25 @@ def voltage_bar(actuator: Actuator) -> Markup:
 
 def wave_words(waves: Sequence[Harmonic]) -> str:
     """Active twist as `3/rev 0.75°`; empty where there is none."""
-    return ", ".join(f"{wave.per_rev}/rev {number(math.degrees(wave.amplitude), 2)}°" for wave in waves)
+    return ", ".join(
+        f"{wave.per_rev}/rev {number(math.degrees(wave.amplitude), 2)}°" for wave in waves
+    )
 
 
-def now_panel(inputs: ActuatorInputs, installed: InstalledActuator, waves: Sequence[Harmonic] = ()) -> Markup:
+def now_panel(
+    inputs: ActuatorInputs, installed: InstalledActuator, waves: Sequence[Harmonic] = ()
+) -> Markup:
     """What the sliders make of the blade at this moment."""
     tip = math.degrees(inputs.tip(installed))
     drives = " · ".join(inputs.drive_text(installed, k) for k in range(len(installed.shapes)))
     words = f"tip twist at {drives}" if inputs.driven or waves else "tip twist, at rest"
     words += f", with {wave_words(waves)}" if waves else ""
     twist = tag("b", f"{number(tip, 2, sign=True)}°", data_explorer="actuator-twist")
-    return tag("div.rx", tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP), data_explorer="actuator-now")
+    return tag(
+        "div.rx",
+        tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP),
+        data_explorer="actuator-now",
+    )
 
 
 def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
@@ -59,7 +71,11 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
         f"range of tip twist {number(math.degrees(installed.attainable), 2)}° in flight, {number(rest, 2)}° at rest",
         f"first torsion at {number(installed.frequency, 2)}/rev",
         *([f"moment {number(installed.moment)} N·m"] if installed.moment else ()),
-        *([] if verdict is None else [f"twist required {number(math.degrees(verdict.required), 2)}°"]),
+        *(
+            []
+            if verdict is None
+            else [f"twist required {number(math.degrees(verdict.required), 2)}°"]
+        ),
         *([] if verdict is None else [f"slewing power {number(verdict.drive.slew_power)} W"]),
     ]
     return tag("div.rx.rx-dim.rx-small", f"{'; '.join(facts)}.", data_explorer="actuator-numbers")
@@ -77,11 +93,20 @@ def limits_panel(verdict: Verdict | None) -> Markup:
     if verdict is None:
         return Markup()
     kept = ", ".join(limit_words(limit.name) for limit in verdict.limits if limit.ok)
-    good = tag("div", tag("span.rx-good", "✓"), tag("span.rx-dim", f"met: {kept}")) if kept else None
+    good = (
+        tag("div", tag("span.rx-good", "✓"), tag("span.rx-dim", f"met: {kept}")) if kept else None
+    )
     reach = verdict.installed.actuator.range_limits
-    own, asked = ([limit for limit in verdict.broken if (limit.name in reach) == short] for short in (False, True))
-    more = tag("div.rx-care", tag("span", "▲"), tag("span", "The best twist needs more than it has:"))
-    cares = [tag("div.rx-care", tag("span", "▲"), tag("span", caveat)) for caveat in verdict.caveats]
+    own, asked = (
+        [limit for limit in verdict.broken if (limit.name in reach) == short]
+        for short in (False, True)
+    )
+    more = tag(
+        "div.rx-care", tag("span", "▲"), tag("span", "The best twist needs more than it has:")
+    )
+    cares = [
+        tag("div.rx-care", tag("span", "▲"), tag("span", caveat)) for caveat in verdict.caveats
+    ]
     beyond = (more, *map(_limit, asked)) if asked else ()
     return tag("div.rx.rxa-limits", map(_limit, own), beyond, good, cares, data_explorer="limits")
 

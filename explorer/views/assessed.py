@@ -8,7 +8,13 @@ from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
 from explorer.text.readout import kilograms, limit_words, mass_parts, needs_words, pair_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, blade_out, no_verdict
+from explorer.views.actuated import (
+    ActuatedBlade,
+    actuated_blade,
+    against_words,
+    blade_out,
+    no_verdict,
+)
 from explorer.views.dial_answer import FittedBlade, peak_of
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.kind import Limit
@@ -37,7 +43,10 @@ def _vibration(one: ActuatedBlade) -> str:
     """The change of vibration here: mean and ends over inflow models."""
     if not one.vibration:
         return "" if one.vibration is None else "no vibration data here"
-    ends, middle = (min(one.vibration), max(one.vibration)), math.fsum(one.vibration) / len(one.vibration)
+    ends, middle = (
+        (min(one.vibration), max(one.vibration)),
+        math.fsum(one.vibration) / len(one.vibration),
+    )
     mean, low, high = (number(change, 0, sign=True) for change in (middle, *ends))
     if ends[0] * ends[1] <= 0.0:
         return f"vibration unclear ({low}…{high} %)"
@@ -53,7 +62,9 @@ def _gives(one: ActuatedBlade, units: Units) -> str:
 def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
-    moves = f"{total} on board; tip turned by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
+    moves = (
+        f"{total} on board; tip turned by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
+    )
     forbidden = one.installed.actuator.forbidden
     moves += f" It is {forbidden}." if forbidden else ""
     if flight is not None:
@@ -66,20 +77,37 @@ def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
         return moves, ("It would not pay, however light.",)
     wide = None if one.line is None else one.line.twist_for(one.mass)
     pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below ", kilograms(mass)
-    within = "" if one.line is None else f" (± {kilograms(one.line.band(one.range, mass) / one.line.per_kg)})"
+    within = (
+        ""
+        if one.line is None
+        else f" (± {kilograms(one.line.band(one.range, mass) / one.line.per_kg)})"
+    )
     if wide is not None:
-        return moves, (*pays, f"{within} or with a range above ", f"{number(math.degrees(wide), 1)}°", ".")
-    return moves, (*pays, f"{within}." if one.line is None else f"{within}; no twist pays at {total}.")
+        return moves, (
+            *pays,
+            f"{within} or with a range above ",
+            f"{number(math.degrees(wide), 1)}°",
+            ".",
+        )
+    return moves, (
+        *pays,
+        f"{within}." if one.line is None else f"{within}; no twist pays at {total}.",
+    )
 
 
 def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
     """Each limit that is exceeded, with value and bound: its own, and those that only the best twist would exceed."""
     broken = () if one.verdict is None else one.verdict.broken
     reach = one.installed.actuator.range_limits
-    own, required = ([_limit(each) for each in broken if (each.name in reach) == short] for short in (False, True))
+    own, required = (
+        [_limit(each) for each in broken if (each.name in reach) == short]
+        for short in (False, True)
+    )
     peak = peak_of(one.now.inputs.twist_per_rev)
     room = FittedBlade(one.installed, one.inputs.driven_at(one.installed)).room
-    own += [f"twist at n/rev {number(peak, 2)} of {number(room, 2)}°"] if peak > room + 0.005 else []
+    own += (
+        [f"twist at n/rev {number(peak, 2)} of {number(room, 2)}°"] if peak > room + 0.005 else []
+    )
     return tuple(own), tuple(required)
 
 
@@ -132,7 +160,10 @@ def feasible(now: PageState) -> ActuatorInputs | None:
     one = actuated_blade(now)
     if one is None or one.verdict is None or one.verdict.buildable:
         return None
-    kept, nose = one.installed.actuator.range_limits, float(structure_data()["limits"]["de_ice_end_c"])
+    kept, nose = (
+        one.installed.actuator.range_limits,
+        float(structure_data()["limits"]["de_ice_end_c"]),
+    )
     for plies in range(one.inputs.plies, 0, -1):
         for front in dict.fromkeys((one.inputs.chord[0], max(one.inputs.chord[0], nose))):
             other = replace(one.inputs, plies=plies, chord=(front, one.inputs.chord[1]))
@@ -140,7 +171,10 @@ def feasible(now: PageState) -> ActuatorInputs | None:
                 installed = other.installed(one.design.rotor)
             except ValueError:
                 continue
-            if all(limit.ok or limit.name in kept for limit in limits(installed, (1.0,) * len(installed.shapes))):
+            if all(
+                limit.ok or limit.name in kept
+                for limit in limits(installed, (1.0,) * len(installed.shapes))
+            ):
                 return other
     return None
 
@@ -148,7 +182,11 @@ def feasible(now: PageState) -> ActuatorInputs | None:
 def _change_words(one: ActuatedBlade, other: ActuatorInputs | None) -> str:
     if other is None:
         return ""
-    plies = "" if other.plies == one.inputs.plies else f"{other.plies} {one.installed.actuator.noun[other.plies > 1]}"
+    plies = (
+        ""
+        if other.plies == one.inputs.plies
+        else f"{other.plies} {one.installed.actuator.noun[other.plies > 1]}"
+    )
     chord = "" if other.chord == one.inputs.chord else f"chord from {number(other.chord[0], 2)}"
     return ", ".join(filter(None, (plies, chord)))
 
@@ -156,7 +194,9 @@ def _change_words(one: ActuatedBlade, other: ActuatorInputs | None) -> str:
 def make_feasible(now: PageState, _: Any) -> tuple[Effect, ...]:
     """Set the actuator that could be built."""
     other = now.of(feasible)
-    return () if other is None else (SetHand(actuator={"plies": other.plies, "chord": other.chord}),)
+    return (
+        () if other is None else (SetHand(actuator={"plies": other.plies, "chord": other.chord}),)
+    )
 
 
 ACTUATOR_CARD = Panel(card, blade_out, asks, presses={"against": choose, "feasible": make_feasible})

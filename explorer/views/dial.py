@@ -15,9 +15,24 @@ from explorer.model.units import number
 from explorer.parts.actuate import DialMatrix, DialPart, ModelChanges
 from explorer.parts.presses import WavePress
 from explorer.text.design_words import harmonic_words
-from explorer.views.actuated import effect_call, fitted, in_actuate, per_rev_heat, per_rev_power, still_work
+from explorer.views.actuated import (
+    effect_call,
+    fitted,
+    in_actuate,
+    per_rev_heat,
+    per_rev_power,
+    still_work,
+)
 from explorer.views.dial_answer import HARMONICS, DialAnswer, FrontDot, dial_answer, front_dots
-from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelWork, Questions, SetGrabbed
+from explorer.views.page_state import (
+    Effect,
+    MoveSliders,
+    PageState,
+    Panel,
+    PanelWork,
+    Questions,
+    SetGrabbed,
+)
 from explorer.workers.call import Call
 from rotor import Design
 from rotor.actuator import EffectInFlight, Programme, effect, programmes
@@ -80,7 +95,9 @@ def _settled(now: PageState) -> ModelChanges | str | None:
         return ModelChanges((0.0,), (0.0,))
     if known is None or isinstance(found, str):
         return found if isinstance(found, str) else None
-    others, index = (found.power[1:], found.index) if isinstance(found, EffectInFlight) else ((), ())
+    others, index = (
+        (found.power[1:], found.index) if isinstance(found, EffectInFlight) else ((), ())
+    )
     powers = known[0], *(power + per_rev_heat(now) for power in others)
     return ModelChanges(tuple(map(unit.of, powers)), tuple(round(change, 2) for change in index))
 
@@ -92,9 +109,16 @@ def works(now: PageState) -> tuple[PanelWork, ...]:
 
 def asks(now: PageState) -> tuple[Questions, ...]:
     """What is trimmed first; then two processes share the inflow models."""
-    trimmed, calls = [call for call in (now.of(effect_call), now.of(_moved)) if call], now.of(_asked)
+    trimmed, calls = (
+        [call for call in (now.of(effect_call), now.of(_moved)) if call],
+        now.of(_asked),
+    )
     first = Questions(_URGENCY, tuple(trimmed), _DELAY_S)
-    return first, Questions(_LATER, calls[::2], _DELAY_S), Questions(_LATER + 1, calls[1::2], _DELAY_S)
+    return (
+        first,
+        Questions(_LATER, calls[::2], _DELAY_S),
+        Questions(_LATER + 1, calls[1::2], _DELAY_S),
+    )
 
 
 def _answer(now: PageState) -> DialMatrix | str | None:
@@ -146,7 +170,9 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
         now=tuple((wave.per_rev, *_polar(wave)) for wave in waves),
         reach=reach,
         whole=round(whole, 4),
-        room=0.0 if on_blade is None or not on_blade.whole else round(on_blade.room / on_blade.whole, 4),
+        room=0.0
+        if on_blade is None or not on_blade.whole
+        else round(on_blade.room / on_blade.whole, 4),
         rings=tuple((at, tick_text(at)) for at in round_ticks(0.0, reach, 4)[1:]),
         words=words,
         computing=not words and (answer is None or now.of(_waits) or moving),
@@ -158,14 +184,19 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
         per_watt=unit.of(1.0),
         front=tuple((dot.power, dot.index, _parts(dot.twist)) for dot in now.of(_dots)),
         exaggerated=number(_SHAKE_EXAGGERATION),
-        shake=_SHAKE_EXAGGERATION / (design.condition.mass * (design.rotor.blades * design.rotor.angular_speed) ** 2),
+        shake=_SHAKE_EXAGGERATION
+        / (design.condition.mass * (design.rotor.blades * design.rotor.angular_speed) ** 2),
         held=now.ui.held,
     )
 
 
 def validation_words() -> str:
     """What the dial rests on."""
-    measured = [one.vibration_percent for one in programmes() if one.kind != "computed" and one.vibration_percent]
+    measured = [
+        one.vibration_percent
+        for one in programmes()
+        if one.kind != "computed" and one.vibration_percent
+    ]
     least, most = -max(high for _, high in measured), -min(low for low, _ in measured)
     return (
         "Not validated: we found no measured power saving by active twist; published savings are computed. In wind "
@@ -176,7 +207,11 @@ def validation_words() -> str:
 def _set_words(now: PageState) -> str:
     """What these inputs have that the dial does not show: by file, link or measured condition too."""
     inputs = now.inputs
-    hidden = [wave for wave in inputs.twist_per_rev if wave.per_rev not in HARMONICS or inputs.active_shape]
+    hidden = [
+        wave
+        for wave in inputs.twist_per_rev
+        if wave.per_rev not in HARMONICS or inputs.active_shape
+    ]
     words = harmonic_words(tuple(hidden), inputs.pitch_per_rev)
     shaped = " The twist keeps the shape given in its design file." if inputs.active_shape else ""
     sentence = f"{words[:1].upper()}{words[1:]}.{shaped}" if words else ""
@@ -191,7 +226,11 @@ def move_dot(now: PageState, value: str | Sequence[WavePress]) -> tuple[Effect, 
     for wave in value:
         if wave.per_rev in HARMONICS:
             moved = with_wave(moved, wave.per_rev, wave.amplitude, wave.phase)
-    return (MoveSliders(replace(now.inputs, twist_per_rev=moved)),) if moved != now.inputs.twist_per_rev else ()
+    return (
+        (MoveSliders(replace(now.inputs, twist_per_rev=moved)),)
+        if moved != now.inputs.twist_per_rev
+        else ()
+    )
 
 
 def take_dot(now: PageState, number_of: int) -> tuple[Effect, ...]:
@@ -206,11 +245,15 @@ def take_dot(now: PageState, number_of: int) -> tuple[Effect, ...]:
 DIAL = Panel(view, in_actuate, asks, works, presses={"dial": move_dot, "dial_front": take_dot})
 
 
-def with_wave(waves: tuple[Harmonic, ...], per_rev: int, amplitude: float, phase: float) -> tuple[Harmonic, ...]:
+def with_wave(
+    waves: tuple[Harmonic, ...], per_rev: int, amplitude: float, phase: float
+) -> tuple[Harmonic, ...]:
     """The harmonics with this one at another amplitude and phase [°]; none below `_MIN_AMPLITUDE_DEG`."""
     kept = [wave for wave in waves if wave.per_rev != per_rev]
     if amplitude >= _MIN_AMPLITUDE_DEG:
-        kept.append(Harmonic(per_rev, math.radians(min(amplitude, 20.0)), math.radians(phase % 360.0)))
+        kept.append(
+            Harmonic(per_rev, math.radians(min(amplitude, 20.0)), math.radians(phase % 360.0))
+        )
     return tuple(sorted(kept, key=lambda wave: wave.per_rev))
 
 
@@ -247,16 +290,35 @@ def _spread(name: str, value: float, ends: tuple[float, float], digits: int) -> 
 
 def front_chart(dots: Sequence[FrontDot]) -> Chart:
     """The front beside what other programmes reached, where power and vibration belong to one input."""
-    shown = [result for result in programmes() if result.together and result.power_change_percent is not None]
-    powers = [0.0, *(end for dot in dots for end in dot.powers), *(one.power_change_percent or 0.0 for one in shown)]
+    shown = [
+        result
+        for result in programmes()
+        if result.together and result.power_change_percent is not None
+    ]
+    powers = [
+        0.0,
+        *(end for dot in dots for end in dot.powers),
+        *(one.power_change_percent or 0.0 for one in shown),
+    ]
     most = max(40.0, *(1.15 * dot.index for dot in dots)) if dots else 40.0
-    spreads = [Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots]
+    spreads = [
+        Line("", (dot.power, dot.power), dot.over_inflows, _SPREAD, width=4.0) for dot in dots
+    ]
     spreads += [Line("", dot.powers, (dot.index, dot.index), _SPREAD, width=4.0) for dot in dots]
     line = Line("", [dot.power for dot in dots], [dot.index for dot in dots], _BEST, width=1.4)
-    best = (line, *(_pressed(dots, agreed) for agreed in (True, False) if agreed in {dot.agreed for dot in dots}))
+    best = (
+        line,
+        *(
+            _pressed(dots, agreed)
+            for agreed in (True, False)
+            if agreed in {dot.agreed for dot in dots}
+        ),
+    )
     return Chart(
         "Vibration by power",
-        Axis("power [%]", (math.floor(min(-2.0, *powers) - 0.3), math.ceil(max(2.0, *powers) + 0.6))),
+        Axis(
+            "power [%]", (math.floor(min(-2.0, *powers) - 0.3), math.ceil(max(2.0, *powers) + 0.6))
+        ),
         Axis("changes [%]", (-100.0, most), tuple(at for at in _VIBRATIONS if at < most)),
         (*spreads, _published(shown), *(best if dots else ())),
         (Rule(0.0, colour=_FAINT, dashes=""),),
@@ -295,12 +357,18 @@ def _published(shown: Sequence[Programme]) -> Points:
 
 def programme_words(result: Programme) -> str:
     """A published result in a sentence or two, with its source."""
-    parts = [f"{result.name}: {result.control}, {'measured in ' if result.kind != 'computed' else ''}{result.kind}"]
+    parts = [
+        f"{result.name}: {result.control}, {'measured in ' if result.kind != 'computed' else ''}{result.kind}"
+    ]
     if result.vibration_percent is not None:
         parts.append(f"{result.vibration} {_range(result.vibration_percent)}")
     if result.power_change_percent is not None:
         parts.append(f"power {number(result.power_change_percent, 1, sign=True)} %")
-    apart = "" if result.together or result.power_change_percent is None else " The two are separate best results."
+    apart = (
+        ""
+        if result.together or result.power_change_percent is None
+        else " The two are separate best results."
+    )
     return f"{', '.join(parts)}.{apart} {result.note} {result.source}."
 
 

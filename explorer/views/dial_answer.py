@@ -51,7 +51,10 @@ class FittedBlade:
 def peak_of(waves: Sequence[Harmonic]) -> float:
     """Largest twist of all harmonics together over a turn [°]."""
     psi = np.radians(np.arange(0.0, 360.0, 5.0))
-    twist = sum((wave.amplitude * np.cos(wave.per_rev * psi - wave.phase) for wave in waves), np.zeros(len(psi)))
+    twist = sum(
+        (wave.amplitude * np.cos(wave.per_rev * psi - wave.phase) for wave in waves),
+        np.zeros(len(psi)),
+    )
     return math.degrees(float(np.abs(twist).max()))
 
 
@@ -101,7 +104,9 @@ def dial_answer(design: Design, losses: Sequence[float], reach: float) -> DialAn
     few, steps = 2 * len(_FRONT_HARMONICS), list[Array]()
     if reach:
         part = second[:, :few, :few]
-        front = replace(matrix, harmonics=_FRONT_HARMONICS, slopes=matrix.slopes[:, :few], second=part)
+        front = replace(
+            matrix, harmonics=_FRONT_HARMONICS, slopes=matrix.slopes[:, :few], second=part
+        )
         steps = front_twists(front, math.radians(reach), _FRONT_POINTS)
     numbers = DialNumbers(
         base=_rounded(matrix.base),
@@ -119,18 +124,31 @@ def front_dots(own: DialAnswer, others: Sequence[DialNumbers]) -> tuple[FrontDot
     """The front of the design's own inflow model, with what the others foresee there."""
     dots = list[FrontDot]()
     for step in own.front:
-        (power, index), *rest = (_foreseen(numbers, np.array(step)) for numbers in (own.numbers, *others))
-        over, powers = (index, *(other for _, other in rest)), (power, *(other for other, _ in rest))
+        (power, index), *rest = (
+            _foreseen(numbers, np.array(step)) for numbers in (own.numbers, *others)
+        )
+        over, powers = (
+            (index, *(other for _, other in rest)),
+            (power, *(other for other, _ in rest)),
+        )
         index = math.fsum(over) / len(over)
         pairs = zip(HARMONICS, np.reshape(step, (-1, 2)).tolist(), strict=True)
-        twist = tuple(Harmonic(n, math.radians(math.hypot(a, b)), math.atan2(b, a)) for n, (a, b) in pairs if a or b)
-        dots.append(FrontDot(twist, power, (min(powers), max(powers)), index, (min(over), max(over))))
+        twist = tuple(
+            Harmonic(n, math.radians(math.hypot(a, b)), math.atan2(b, a))
+            for n, (a, b) in pairs
+            if a or b
+        )
+        dots.append(
+            FrontDot(twist, power, (min(powers), max(powers)), index, (min(over), max(over)))
+        )
     return tuple(dots)
 
 
 def _foreseen(numbers: DialNumbers, x: Array) -> tuple[float, float]:
     """Changes of power and index [%] for cosines and sines [°], as `dial.js` foresees them."""
-    values = np.array(numbers.base) + (np.array(numbers.slopes) + 0.5 * np.array(numbers.second) @ x) @ x
+    values = (
+        np.array(numbers.base) + (np.array(numbers.slopes) + 0.5 * np.array(numbers.second) @ x) @ x
+    )
     sizes = np.square(numbers.gains) * np.square(values[:-1]).reshape(-1, 2).sum(axis=1)
     index = math.sqrt(sizes[:3].sum()) + math.sqrt(sizes[3:].sum())
     return 100.0 * (float(values[-1]) / numbers.power - 1.0), 100.0 * (index / numbers.index - 1.0)

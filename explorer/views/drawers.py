@@ -23,7 +23,10 @@ def details(now: PageState) -> dict[str, Any]:
     solution, pinned = state.solution, state.pinned
     band = now.answers.get(shown_doubt(now)[0].key)
     if pinned is None:
-        tables = readout.power_panel(solution, state.baseline, units, band), readout.trim_panel(solution)
+        tables = (
+            readout.power_panel(solution, state.baseline, units, band),
+            readout.trim_panel(solution),
+        )
     else:
         power = readout.compared_power_panel(solution, pinned, units, band)
         tables = power, readout.compared_trim_panel(solution, pinned)
@@ -47,7 +50,10 @@ def trust(now: PageState) -> dict[str, Any]:
 
 
 def _model_questions(now: PageState) -> tuple[Questions, ...]:
-    return tuple(Questions(_URGENCY, (Call(alternative_models, work.about),), _STILL) for work in shown_doubt(now))
+    return tuple(
+        Questions(_URGENCY, (Call(alternative_models, work.about),), _STILL)
+        for work in shown_doubt(now)
+    )
 
 
 DETAILS = Panel(details, lambda ui: ui.drawer == "details", works=shown_doubt)

@@ -14,8 +14,23 @@ from explorer.model.actuator_inputs import ActuatorState, HandSettings, schedule
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, change_kind, fuel_words, pair_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, blade_out, compared_trims, parts_call, saving_parts
-from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelMemory, Questions, SetHand
+from explorer.views.actuated import (
+    ActuatedBlade,
+    actuated_blade,
+    blade_out,
+    compared_trims,
+    parts_call,
+    saving_parts,
+)
+from explorer.views.page_state import (
+    Effect,
+    MoveSliders,
+    PageState,
+    Panel,
+    PanelMemory,
+    Questions,
+    SetHand,
+)
 from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
 from rotor.actuator.stopped import numbers_of
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
@@ -41,7 +56,13 @@ def condition_at(legs: Sequence[FlightLeg], x: float) -> tuple[float, float]:
 
 def position_of(legs: Sequence[FlightLeg], advance_ratio: float) -> float:
     """Where on the bar an advance ratio is: it grows from leg to leg."""
-    return float(np.interp(advance_ratio, [leg.advance_ratio for leg in legs], np.arange(len(legs)) / POINTS_PER_LEG))
+    return float(
+        np.interp(
+            advance_ratio,
+            [leg.advance_ratio for leg in legs],
+            np.arange(len(legs)) / POINTS_PER_LEG,
+        )
+    )
 
 
 def view(now: PageState) -> dict[str, FlightPart | EarnsPart | None]:
@@ -50,7 +71,11 @@ def view(now: PageState) -> dict[str, FlightPart | EarnsPart | None]:
         return {}
     wrong = one.outcome if isinstance(one.outcome, str) else ""
     verdict = None if wrong else one.verdict or now.memory.latest.get("verdict")
-    earns = _balance(now, wrong) if now.hand.here else earns_state(verdict, one.verdict is not None, now.units, wrong)
+    earns = (
+        _balance(now, wrong)
+        if now.hand.here
+        else earns_state(verdict, one.verdict is not None, now.units, wrong)
+    )
     return {"flight": _flight(now, one, wrong), "earns": earns}
 
 
@@ -82,11 +107,18 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
     state, words = hand.state, ""
     if now.of(compared_trims) is not None and now.state is not None:
         there = numbers_of(now.state.solution, one.design.twist)
-        left = "" if there.controls_left is None else f", {number(100.0 * there.controls_left)} % control left"
+        left = (
+            ""
+            if there.controls_left is None
+            else f", {number(100.0 * there.controls_left)} % control left"
+        )
         stalled = f"disk {number(100.0 * there.stalled_area, 1)} % stalled"
         words = f"{STATES[state]}: {now.units.watts(there.power)}, {stalled}{left}"
     return FlightPart(
-        legs=tuple((leg.name, _condition(leg, rotor.tip_speed, now.units)) for leg in legs[::POINTS_PER_LEG]),
+        legs=tuple(
+            (leg.name, _condition(leg, rotor.tip_speed, now.units))
+            for leg in legs[::POINTS_PER_LEG]
+        ),
         at=round(position_of(legs, now.inputs.advance_ratio), 3),
         kind="ready" if known else "problem" if problem else "computing",
         words="; ".join(filter(None, (words, problem))),
@@ -98,37 +130,66 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
 
 
 _SIGNS: Mapping[str, Sign] = {"": "", "less": "gain", "more": "loss"}
-STATES: Mapping[ActuatorState, str] = {"set": "as set", "schedule": "by schedule", "stopped": "stopped"}
+STATES: Mapping[ActuatorState, str] = {
+    "set": "as set",
+    "schedule": "by schedule",
+    "stopped": "stopped",
+}
 """States of the actuator, as they are called."""
 
 
-def flight_chart(flight: ActuatorFlight | None, last: float, state: ActuatorState, tip: float) -> Chart:
+def flight_chart(
+    flight: ActuatorFlight | None, last: float, state: ActuatorState, tip: float
+) -> Chart:
     """Tip twist over the legs, counted from 0 to `last`: within reach, by schedule, and that of another state [°]."""
     series: list[Series] = []
     low, high = -_MIN_HEIGHT_DEG, _MIN_HEIGHT_DEG
     if flight is not None:
         reached, reach = (np.degrees(angles) for angles in (flight.reached, flight.reach))
-        low, high = (float(end) for end in (min(low, *reached, *reach), max(high, *reached, *reach)))
+        low, high = (
+            float(end) for end in (min(low, *reached, *reach), max(high, *reached, *reach))
+        )
         at = np.arange(len(reached)) / POINTS_PER_LEG
         series += [
             Band("", at, np.full(len(at), reach[0]), np.full(len(at), reach[1]), "var(--rx-dim)"),
-            Line("by schedule", at, reached, "var(--rx-accent)", "" if state == "schedule" else "2 5", width=3.0),
+            Line(
+                "by schedule",
+                at,
+                reached,
+                "var(--rx-accent)",
+                "" if state == "schedule" else "2 5",
+                width=3.0,
+            ),
         ]
     if state != "schedule":
         low, high = min(low, tip), max(high, tip)
         colour = "var(--rxa-loss)" if state == "stopped" else "var(--rx-accent)"
         series.append(
-            Line(STATES[state], (0.0, last), (tip, tip), colour, "6 4" if state == "stopped" else "", width=3.0)
+            Line(
+                STATES[state],
+                (0.0, last),
+                (tip, tip),
+                colour,
+                "6 4" if state == "stopped" else "",
+                width=3.0,
+            )
         )
     margin = 0.06 * (high - low)
-    return Chart("Tip twist", Axis("", (0.0, last)), Axis("", (low - margin, high + margin), unit="°"), tuple(series))
+    return Chart(
+        "Tip twist",
+        Axis("", (0.0, last)),
+        Axis("", (low - margin, high + margin), unit="°"),
+        tuple(series),
+    )
 
 
 def _condition(leg: FlightLeg, tip_speed: float, units: Units) -> str:
     if leg.advance_ratio == 0.0 and leg.climb_speed == 0.0:
         return "0 kt" if units.speed[0].symbol == "kt" else "µ 0"
     speed = units.speed[0].text(leg.advance_ratio * tip_speed)
-    return f"{speed}, {units.climb.text(leg.climb_speed, 1, sign=True)}" if leg.climb_speed else speed
+    return (
+        f"{speed}, {units.climb.text(leg.climb_speed, 1, sign=True)}" if leg.climb_speed else speed
+    )
 
 
 def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str = "") -> EarnsPart:
@@ -141,11 +202,20 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     if verdict is None:
         return state
     saved, band = verdict.fuel_saving, verdict.fuel_band
-    fuel = change_kind(-saved, sureness(saved, band)) if saved is not None and band is not None else ""
+    fuel = (
+        change_kind(-saved, sureness(saved, band)) if saved is not None and band is not None else ""
+    )
     return replace(
         state,
         where=f"by schedule, {pair_words(verdict)}",
-        bars=_bars(verdict.savings, units, verdict.net_band, verdict.bands, verdict.buildable, verdict.sourced),
+        bars=_bars(
+            verdict.savings,
+            units,
+            verdict.net_band,
+            verdict.bands,
+            verdict.buildable,
+            verdict.sourced,
+        ),
         fuel=fuel_words(verdict),
         fuel_kind="" if fuel == "less" and not verdict.buildable else _SIGNS[fuel],
         fuel_note=" ".join(text for text in verdict.caveats if "uel" in text),
@@ -163,7 +233,13 @@ def _balance(now: PageState, problem: str) -> EarnsPart:
         now.units.power[0].symbol,
         here=True,
         where="in hover" if hovers else f"at {now.units.speed[0].text(speed)}",
-        bars=_bars([part[:2] for part in parts], now.units, here and here.band, [part[2] for part in parts], *how),
+        bars=_bars(
+            [part[:2] for part in parts],
+            now.units,
+            here and here.band,
+            [part[2] for part in parts],
+            *how,
+        ),
     )
 
 
@@ -180,7 +256,15 @@ def _bars(
     if kinds and kinds[-1] == "gain" and not built:
         kinds[-1] = ""
     return tuple(
-        PowerBar(row.name, round(row.value, 3), row.text, kind, row is rows[-1], round(row.band, 3), row.words)
+        PowerBar(
+            row.name,
+            round(row.value, 3),
+            row.text,
+            kind,
+            row is rows[-1],
+            round(row.band, 3),
+            row.words,
+        )
         for row, kind in zip(rows, kinds, strict=True)
     )
 
@@ -249,4 +333,6 @@ def _driven(now: PageState, x: float | None) -> dict[str, Any]:
 
 
 _PRESSES = {"fly": fly_to, "state": choose_state, "balance": choose}
-FLIGHT = Panel(view, blade_out, asks=asks, remember=remember, reacts=follow_flight, presses=_PRESSES)
+FLIGHT = Panel(
+    view, blade_out, asks=asks, remember=remember, reacts=follow_flight, presses=_PRESSES
+)

@@ -20,7 +20,14 @@ from explorer.text.line import (
     twist_pieces,
 )
 from explorer.text.readout import fineness, limit_words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, against_words, drive_power, flight_doubt, in_actuate
+from explorer.views.actuated import (
+    ActuatedBlade,
+    actuated_blade,
+    against_words,
+    drive_power,
+    flight_doubt,
+    in_actuate,
+)
 from explorer.views.actuator import DRIVES
 from explorer.views.flight import STATES
 from explorer.views.page_state import PageState, Panel, PanelWork
@@ -29,7 +36,11 @@ from explorer.views.work import shown_doubt
 from rotor.actuator.verdict import MIN_SHOWN_W
 from rotor.design.quantity import Slider
 
-_BUILT = [row.slider.label.partition(" [")[0] for row in map(TWISTS.get, LAWS["builtin"].inputs) if row and row.slider]
+_BUILT = [
+    row.slider.label.partition(" [")[0]
+    for row in map(TWISTS.get, LAWS["builtin"].inputs)
+    if row and row.slider
+]
 """Labels of the sliders that are all at zero where the twist is as built."""
 _DRIVE = Slider("Voltage [%]", -100.0, 100.0, 1.0)
 
@@ -49,7 +60,11 @@ def line(now: PageState) -> LinePart:
     named = tuple(piece.control.label for piece in pieces if piece.control is not None)
     named += tuple(_BUILT if any(piece.text == AS_BUILT for piece in pieces) else ())
     if problem or state is None:
-        words = f" has no trim: {problem.removeprefix('Not trimmed: ').rstrip('.')}" if problem else " …"
+        words = (
+            f" has no trim: {problem.removeprefix('Not trimmed: ').rstrip('.')}"
+            if problem
+            else " …"
+        )
         pieces.append(LinePiece(words, "problem"))
         return LinePart(pieces, Status("problem", "", problem), named, problem, now.ui.held)
     doubts = [(task, *now.latest(task)) for task in shown_doubt(now)]
@@ -62,7 +77,10 @@ def line(now: PageState) -> LinePart:
 def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     """Its state, and the voltages as controls."""
     state, drives = one.now.hand.state, one.inputs.drives[: len(one.installed.shapes)]
-    word, noun = "at" if state == "set" else f"{STATES[state]} at", one.installed.actuator.drive_noun.capitalize()
+    word, noun = (
+        "at" if state == "set" else f"{STATES[state]} at",
+        one.installed.actuator.drive_noun.capitalize(),
+    )
     late = state == "schedule" and one.flight is None
     forbidden = one.installed.actuator.forbidden
     pieces = [LinePiece(f" with {one.name} ")]
@@ -71,11 +89,19 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     for k, drive in enumerate(drives):
         label = f"{noun} {k + 1} [%]" if len(drives) > 1 else f"{noun} [%]"
         pieces += [LinePiece(", ")] if k else []
-        pieces.append(control(DRIVES[k], replace(_DRIVE, label=label, low=one.inputs.least_drive), drive))
+        pieces.append(
+            control(DRIVES[k], replace(_DRIVE, label=label, low=one.inputs.least_drive), drive)
+        )
     waves = [
-        f", {each.per_rev}/rev {number(math.degrees(each.amplitude), 2)}°" for each in one.now.inputs.twist_per_rev
+        f", {each.per_rev}/rev {number(math.degrees(each.amplitude), 2)}°"
+        for each in one.now.inputs.twist_per_rev
     ]
-    return [*pieces, LinePiece("\u00a0%"), LinePiece(f" {noun.lower()}", WIDE), LinePiece("".join(waves))]
+    return [
+        *pieces,
+        LinePiece("\u00a0%"),
+        LinePiece(f" {noun.lower()}", WIDE),
+        LinePiece("".join(waves)),
+    ]
 
 
 def _flight_change(one: ActuatedBlade) -> list[LinePiece]:
@@ -86,8 +112,14 @@ def _flight_change(one: ActuatedBlade) -> list[LinePiece]:
     if here.band is None and abs(here.power) < MIN_SHOWN_W:
         return [LinePiece(": no change from the blade without it", "against")]
     than = "without it" if against == "same-blade" else f"with the {against_words(one, against)}"
-    digit = 0.5 * 10.0 ** -fineness(now.state.solution.power, now.units) if now.state is not None else 0.5
-    note = ", drive included" if abs(now.units.power[0].of(drive_power(now) or 0.0)) >= digit else ""
+    digit = (
+        0.5 * 10.0 ** -fineness(now.state.solution.power, now.units)
+        if now.state is not None
+        else 0.5
+    )
+    note = (
+        ", drive included" if abs(now.units.power[0].of(drive_power(now) or 0.0)) >= digit else ""
+    )
     reach = one.installed.actuator.range_limits
     broken = () if one.verdict is None else one.verdict.broken
     over = over_pieces([limit_words(each.name) for each in broken if each.name not in reach])
@@ -108,7 +140,9 @@ def _change(now: PageState) -> list[LinePiece]:
     band, known = now.latest(shown_doubt(now)[0])
     within = None if band is None else band.change_band
     change = solution.power.total - reference.power.total
-    return change_pieces(change, within, than_words(solution.design, reference.design, pinned), now.units, known)
+    return change_pieces(
+        change, within, than_words(solution.design, reference.design, pinned), now.units, known
+    )
 
 
 def line_text(now: PageState) -> str:

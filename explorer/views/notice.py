@@ -18,7 +18,11 @@ _EQUAL = 50.0
 def game_doubt(now: PageState) -> tuple[PanelWork, ...]:
     """How sure the difference from what the search found is."""
     state, game = now.state, now.game
-    return () if state is None or game is None else (doubt_work("game", state.solution, game.least, now.analyses),)
+    return (
+        ()
+        if state is None or game is None
+        else (doubt_work("game", state.solution, game.least, now.analyses),)
+    )
 
 
 def notice(now: PageState) -> dict[str, Any]:
@@ -27,7 +31,9 @@ def notice(now: PageState) -> dict[str, Any]:
     if words is None and state is not None and game is not None:
         band, _ = now.latest(game_doubt(now)[0])
         link = (
-            [] if game.best is game.start else [("game_link", f"I reached {total_words(game.best.power.total, units)}")]
+            []
+            if game.best is game.start
+            else [("game_link", f"I reached {total_words(game.best.power.total, units)}")]
         )
         actions = [*link, ("game_take", "Take it"), ("game_end", "End")]
         sentence = comparison(state.solution, game.least, band, units)
@@ -47,7 +53,10 @@ def score(best: Solution, to_beat: Solution, units: Units) -> str:
 def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:
     """One's own power against the least by the same sliders, with the band of the difference where it is known."""
     unit, change = units.power[0], own.power.total - other.power.total
-    power, way = f"Least with these sliders {total_words(other.power.total, units)}", "more" if change > 0.0 else "less"
+    power, way = (
+        f"Least with these sliders {total_words(other.power.total, units)}",
+        "more" if change > 0.0 else "less",
+    )
     if abs(change) < _EQUAL:
         return f"{power}, yours the same"
     if band is None:
@@ -59,7 +68,11 @@ def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units)
 def prompt(now: PageState) -> dict[str, SceneLabel | None]:
     """What to do first, until something was done."""
     tip = [0.97 * now.inputs.aircraft.rotor_for(now.inputs.preset).radius, 0.0, 0.0]
-    return {"prompt": None if any(now.steps) else SceneLabel("Drag the blade tip up or down", "/rotor/blade_0", tip)}
+    return {
+        "prompt": None
+        if any(now.steps)
+        else SceneLabel("Drag the blade tip up or down", "/rotor/blade_0", tip)
+    }
 
 
 NOTICE = Panel(notice, works=game_doubt)

@@ -108,11 +108,18 @@ class PageState:
         """What the sliders show: the inputs, or in their place a design that a search previews."""
         if self.preview is None:
             return self.inputs
-        return replace(with_optimum(self.inputs, self.preview), advance_ratio=self.preview.condition.advance_ratio)
+        return replace(
+            with_optimum(self.inputs, self.preview),
+            advance_ratio=self.preview.condition.advance_ratio,
+        )
 
     @property
     def units(self) -> Units:
-        return SI if self.state is None else units_of(self.state.view.units, self.state.solution.design.aircraft)
+        return (
+            SI
+            if self.state is None
+            else units_of(self.state.view.units, self.state.solution.design.aircraft)
+        )
 
     def latest(self, work: "PanelWork") -> tuple[Any, bool]:
         """The result of work, and True; until it is known the last of its name, or None, and False."""

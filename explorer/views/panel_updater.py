@@ -46,7 +46,13 @@ class PanelUpdater:
         `now`: what is known as of the last update; `pressed`: at a press. `perform`: does one effect of a press.
         """
         self._panels, self._bridge, self._texts = tuple(panels), bridge, texts
-        self._pool, self._wake, self._now, self._pressed, self._perform = pool, wake, now, pressed, perform
+        self._pool, self._wake, self._now, self._pressed, self._perform = (
+            pool,
+            wake,
+            now,
+            pressed,
+            perform,
+        )
         self._queues: list[dict[int, PoolAnswers]] = [{} for _ in self._panels]
         """Of each panel, by urgency."""
         self._following = threading.RLock()
@@ -70,7 +76,11 @@ class PanelUpdater:
     def answers(self) -> dict[Hashable, Any]:
         """What worker processes have answered by now, and why not what they could not; and the page's own results."""
         queues = [queue for each in self._queues for queue in list(each.values())]
-        return {call: why for queue in queues for call, why in queue.failures.items()} | all_known() | self._done
+        return (
+            {call: why for queue in queues for call, why in queue.failures.items()}
+            | all_known()
+            | self._done
+        )
 
     def work(self, soon: bool) -> Iterator[None]:
         """Steps of the page's own work that is wanted, `soon` or later; each result is shown as it comes.
@@ -128,7 +138,11 @@ class PanelUpdater:
             stand |= shown.keys() - self._texts.keys()
             effects += panel.reacts(now) if seen else ()
             self.memory = panel.remember(replace(now, memory=self.memory), shown)
-            changed |= {name: value for name, value in shown.items() if self._sent.get(name, _UNSENT) != value}
+            changed |= {
+                name: value
+                for name, value in shown.items()
+                if self._sent.get(name, _UNSENT) != value
+            }
         self._sent |= changed
         for name in changed.keys() & self._texts.keys():
             self._texts[name](changed.pop(name))
@@ -165,5 +179,6 @@ class PanelUpdater:
         now = self._pressed()
         free = seen(now.ui) and not now.ui.held
         for effect in press(now, value):
-            if free or effect == SetGrabbed(False):  # What is let go meanwhile must not stay in the hand.
+            # What is let go meanwhile must not stay in the hand.
+            if free or effect == SetGrabbed(False):
                 self._perform(effect)

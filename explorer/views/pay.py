@@ -18,7 +18,14 @@ from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.design_words import listed
 from explorer.text.readout import change_sizes, kilograms, limit_words, needs, needs_words
-from explorer.views.actuated import ActuatedBlade, PowerChange, actuated_blade, against_words, in_actuate, no_verdict
+from explorer.views.actuated import (
+    ActuatedBlade,
+    PowerChange,
+    actuated_blade,
+    against_words,
+    in_actuate,
+    no_verdict,
+)
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict, actuators
 from rotor.actuator.verdict import flight_text
@@ -45,12 +52,18 @@ def view(now: PageState) -> dict[str, Any]:
         return {}
     shown, one = _stage(now), actuated_blade(now)
     kinds = Markup() if one is None else _kinds(one, now)
-    return {"suppose": shown, "actuator.pays": shown is not None and shown.kind == "gain", "actuator.kinds": kinds}
+    return {
+        "suppose": shown,
+        "actuator.pays": shown is not None and shown.kind == "gain",
+        "actuator.kinds": kinds,
+    }
 
 
 def _kinds(one: ActuatedBlade, now: PageState) -> Markup:
     """Every kind on this blade, as it comes, beside the chosen one as set: by press, for they take a while."""
-    state, words = ("off", "Close the comparison") if now.hand.on_stage else ("on", "Compare all kinds")
+    state, words = (
+        ("off", "Close the comparison") if now.hand.on_stage else ("on", "Compare all kinds")
+    )
     press = tag("button.rx-link", words, data_do="suppose", data_value=state, type="button")
     if not now.hand.on_stage:
         return tag("div.rx", press, data_explorer="kinds")
@@ -60,7 +73,9 @@ def _kinds(one: ActuatedBlade, now: PageState) -> Markup:
         rows += _kind(one, id, now.units)
     mission = " and ".join(map(flight_text, one.inputs.advance_ratios))
     note = f"Power by schedule, mean of {mission}, against the {against_words(one, one.inputs.against)}."
-    return tag("div.rx.rxa-kinds", tag("table", rows), tag("p.rx-dim", note), press, data_explorer="kinds")
+    return tag(
+        "div.rx.rxa-kinds", tag("table", rows), tag("p.rx-dim", note), press, data_explorer="kinds"
+    )
 
 
 def _kind(one: ActuatedBlade, id: str, units: Units) -> list[Markup]:
@@ -71,18 +86,30 @@ def _kind(one: ActuatedBlade, id: str, units: Units) -> list[Markup]:
     numbers: tuple[str, ...] = "", ""
     if verdict is not None:
         net, mass = verdict.net_saving, verdict.installed.masses.aircraft
-        numbers = number(math.degrees(verdict.installed.attainable), 1), number(mass, 0 if mass >= 10.0 else 1)
+        numbers = (
+            number(math.degrees(verdict.installed.attainable), 1),
+            number(mass, 0 if mass >= 10.0 else 1),
+        )
         power = ("−" if net > 0.0 else "+") + "".join(change_sizes(net, verdict.net_band, units))
         kind = PowerChange(-net, verdict.net_band, verdict.buildable).kind
         kept = verdict.installed.actuator.range_limits
-        over = listed([limit_words(limit.name) for limit in verdict.broken if limit.name not in kept])
+        over = listed(
+            [limit_words(limit.name) for limit in verdict.broken if limit.name not in kept]
+        )
         over = f"over its limits in {over}" if over else "within its limits"
         band = verdict.net_band
         sure = "" if band is None else sureness(net, band, sourced=verdict.sourced)
         words = "; ".join(filter(None, (actuator.forbidden or over, sure)))
     name = tag("button.rx-link", id.replace("_", " "), data_do="kind", data_value=id, type="button")
-    cells = tag("td", name), *(tag("td.rx-num", text) for text in numbers), tag("td.rx-num", power, data_kind=kind)
-    return [tag("tr", cells, data_chosen=chosen or None), tag("tr.rx-dim.rx-small", tag("td", words, colspan=4))]
+    cells = (
+        tag("td", name),
+        *(tag("td.rx-num", text) for text in numbers),
+        tag("td.rx-num", power, data_kind=kind),
+    )
+    return [
+        tag("tr", cells, data_chosen=chosen or None),
+        tag("tr.rx-dim.rx-small", tag("td", words, colspan=4)),
+    ]
 
 
 def take_kind(now: PageState, id: str) -> tuple[Effect, ...]:
@@ -105,7 +132,11 @@ def _stage(now: PageState) -> SupposePart | None:
     if (degrees, mass) == own:
         saving, band, built = -one.over_flight.power, one.over_flight.band, one.over_flight.built
     most, least = line.mass_allowed(twist), line.twist_for(mass)
-    notes = [f"With this range it pays below {_allowed(line, twist)}" if most else "With this range it never pays"]
+    notes = [
+        f"With this range it pays below {_allowed(line, twist)}"
+        if most
+        else "With this range it never pays"
+    ]
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
     gives = needs_words(saving, band, units, one.sourced)
     return SupposePart(
@@ -120,7 +151,9 @@ def _stage(now: PageState) -> SupposePart | None:
 def _allowed(line: OtherStroke, twist: float) -> str:
     """The mass at which a range of twist breaks even, with its band."""
     most = line.mass_allowed(twist)
-    return f"{kilograms(most).removesuffix(' kg')} ± {kilograms(line.band(twist, most) / line.per_kg)}"
+    return (
+        f"{kilograms(most).removesuffix(' kg')} ± {kilograms(line.band(twist, most) / line.per_kg)}"
+    )
 
 
 def _put(degrees: float, mass: float) -> tuple[float, float]:
@@ -146,7 +179,9 @@ def read_place(text: str) -> tuple[float, float]:
     """Twist [°] and mass [kg] of a link; ValueError with one sentence for anything else."""
     parts = list(map(float, text.split(","))) if _PLACE.fullmatch(text) else []
     if not parts or parts[0] > MOST_TWIST or not 0.0 < parts[1] <= MOST_MASS:
-        raise ValueError(f"The supposed actuator {text[:40]!r} is not a twist in degrees and a mass in kg: write 4,12.")
+        raise ValueError(
+            f"The supposed actuator {text[:40]!r} is not a twist in degrees and a mass in kg: write 4,12."
+        )
     return parts[0], parts[1]
 
 
@@ -154,14 +189,24 @@ def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units
     """Mass that just pays over the range, with its band, and actuators as points at their own range and mass; mass is
     logarithmic."""
     real = sorted(verdicts, key=lambda verdict: -verdict.installed.masses.aircraft)
-    places = [(math.degrees(one.installed.attainable), one.installed.masses.aircraft) for one in real]
+    places = [
+        (math.degrees(one.installed.attainable), one.installed.masses.aircraft) for one in real
+    ]
     end = float(line.twists[-1])
     x_most = 1.08 * max(math.degrees(end), *(degrees for degrees, _ in places), 0.0)
     largest = line.mass_allowed(end) or 1.0
-    y_range = 10.0 ** math.floor(math.log10(0.05 * largest)), 3.0 * max(largest, *(mass for _, mass in places), 0.0)
+    y_range = (
+        10.0 ** math.floor(math.log10(0.05 * largest)),
+        3.0 * max(largest, *(mass for _, mass in places), 0.0),
+    )
     fine = [*np.linspace(0.0, end, 60).tolist(), math.radians(x_most)]
-    x, allowed = [*map(math.degrees, fine)], [max(line.mass_allowed(twist), y_range[0]) for twist in fine]
-    within = np.array([line.band(*place) for place in zip(fine, allowed, strict=True)]) / line.per_kg
+    x, allowed = (
+        [*map(math.degrees, fine)],
+        [max(line.mass_allowed(twist), y_range[0]) for twist in fine],
+    )
+    within = (
+        np.array([line.band(*place) for place in zip(fine, allowed, strict=True)]) / line.per_kg
+    )
     series: list[Series] = [
         Band("pays", x, (y_range[0],) * len(x), allowed, _PAYS),
         Band("", x, np.maximum(allowed - within, y_range[0]), allowed + within, "var(--rx-dim)"),

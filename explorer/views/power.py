@@ -49,12 +49,18 @@ def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart
             change, word = part_change(name, power, reference, band, units)
             title += f", {change} {unit.symbol} vs. reference{word and f': {word}'}"
         share = round(value / whole, 5) if whole > 0.0 else 0.0
-        parts.append(PowerShare(name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title))
+        parts.append(
+            PowerShare(
+                name, words.removesuffix(" rotor"), number(unit.of(value), digits), share, title
+            )
+        )
     ideal = ideal_induced(solution)
     return PowerPart(
         parts=parts,
         ideal=None if ideal is None or whole <= 0.0 else round(ideal / whole, 5),
-        ideal_title="" if ideal is None else f"Least induced power at this lift: {units.watts(ideal)}",
+        ideal_title=""
+        if ideal is None
+        else f"Least induced power at this lift: {units.watts(ideal)}",
     )
 
 
@@ -66,8 +72,14 @@ def status(state: SessionState, units: Units) -> Status:
     title = " ".join([*reasons, record.sentence])
     power = state.solution.power
     if power.total < 0.0:
-        words = "autorotation" if power.total > -_TELLING * (power.induced + power.profile) else "driven by the air"
-    elif installed is not None and any(caveat.name == "installed-power" for caveat in state.solution.caveats):
+        words = (
+            "autorotation"
+            if power.total > -_TELLING * (power.induced + power.profile)
+            else "driven by the air"
+        )
+    elif installed is not None and any(
+        caveat.name == "installed-power" for caveat in state.solution.caveats
+    ):
         words = f"engines give only {units.watts(installed)}"
     elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
         thrust = number(100.0 * state.solution.stalled_thrust, 1)
@@ -93,9 +105,16 @@ def station_power(now: PageState) -> dict[str, Any]:
     if now.state is None or now.station is None:
         return {"hand": None}
     power, change, unit = now.state.solution.power, now.change or 0.0, now.units.power[0]
-    digits, band = fineness(power, now.units), next((now.answers.get(work.key) for work in station_doubt(now)), None)
+    digits, band = (
+        fineness(power, now.units),
+        next((now.answers.get(work.key) for work in station_doubt(now)), None),
+    )
     within = None if band is None else band.change_band
-    around = "" if band is None else f" ± {number(unit.of(band.band), max(digits, decimals(unit.of(band.band))))}"
+    around = (
+        ""
+        if band is None
+        else f" ± {number(unit.of(band.band), max(digits, decimals(unit.of(band.band))))}"
+    )
     words = unit.text(change, digits, sign=True)
     if within and round(unit.of(change), 1):
         words = banded(change, within, now.units, least=digits, sign=True).replace(":", ",")
@@ -106,7 +125,8 @@ def station_power(now: PageState) -> dict[str, Any]:
         before=round(unit.of(power.total - change), 2),
         digits=digits,
         place=now.station.place,
-        best=now.station.best and replace(now.station.best, power=round(unit.of(now.station.best.power), 2)),
+        best=now.station.best
+        and replace(now.station.best, power=round(unit.of(now.station.best.power), 2)),
         optimised=None if now.game is None else round(unit.of(now.game.least.power.total), 2),
     )
     return {"hand": shown}

@@ -34,7 +34,10 @@ def prices(now: PageState) -> dict[str, Any]:
     waits = ("Computing …",) if not steps and not current else ()
     on = {"stall": models.stall, "reverse_flow": True}
     shown = {
-        name: RegionPrice((_cost(steps[name], now.units, on[name]),) if name in steps else waits, stale=not current)
+        name: RegionPrice(
+            (_cost(steps[name], now.units, on[name]),) if name in steps else waits,
+            stale=not current,
+        )
         for name in on
     }
     stall, asked = shown["stall"], stall_edge_work(now)
@@ -43,7 +46,10 @@ def prices(now: PageState) -> dict[str, Any]:
         stalls, mu, edges = known or (False, 0.0, {})
         lines = _edges(stalls, mu, edges, now.units)
         stall = replace(stall, lines=(*stall.lines, *lines), stale=stall.stale or not of_now)
-    return {"prices": shown | {"stall": replace(stall, press="Without stall" if models.stall else "With stall")}}
+    return {
+        "prices": shown
+        | {"stall": replace(stall, press="Without stall" if models.stall else "With stall")}
+    }
 
 
 def _cost(step: WaterfallStep, units: Units, on: bool) -> str:

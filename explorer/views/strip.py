@@ -58,14 +58,20 @@ def strip(now: PageState) -> dict[str, Any]:
     return {"strip": drawn}
 
 
-def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str, Chart, Kind, MarkedSpeeds | None]:
+def _power(
+    now: PageState, state: SessionState, curve: PowerCurve
+) -> tuple[str, Chart, Kind, MarkedSpeeds | None]:
     """Change of power over µ; the power itself where the design is its own reference."""
     design, reference, failed = state.solution.design, state.reference, bool(now.problem)
     # A preview, such as the flight of a schedule, is not what the sliders show.
     mu, pinned, units = design.condition.advance_ratio, state.pinned is not None, now.units
     axis = _axis(now, "power")
     held = now.memory.ranges.get(axis), now.memory.ranges.get(axis + _WHOLE)
-    change = state.solution.power.total - reference.power.total if not failed and reference.converged else None
+    change = (
+        state.solution.power.total - reference.power.total
+        if not failed and reference.converged
+        else None
+    )
     band = now.answers.get(shown_doubt(now)[0].key)
     kind = _KINDS[change_kind(change or 0.0, band and band.sureness)]
     if design == reference.design:
@@ -74,7 +80,9 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
         chart = total_power_chart(curve, mu, total, units, held, marks, design)
         notes = [chart.note, source_of(design)]
         value = "" if failed else now.flown.value(state.solution)
-        chart = replace(chart, value=value or chart.value, note=" ".join(note for note in notes if note))
+        chart = replace(
+            chart, value=value or chart.value, note=" ".join(note for note in notes if note)
+        )
     else:
         name = against(design, reference.design, pinned).removeprefix(f"{design.aircraft.name} ")
         chart = power_change_chart(curve, mu, change, name, units, held, band and band.change_band)
@@ -84,7 +92,12 @@ def _power(now: PageState, state: SessionState, curve: PowerCurve) -> tuple[str,
         chart = with_band(chart, bands, units)
     chart, fastest = with_speeds(chart, curve, design)
     known = not failed and math.isfinite(fastest)
-    return "power", chart, kind, MarkedSpeeds(mu, math.floor(200.0 * fastest) / 200.0) if known else None
+    return (
+        "power",
+        chart,
+        kind,
+        MarkedSpeeds(mu, math.floor(200.0 * fastest) / 200.0) if known else None,
+    )
 
 
 def bands_call(now: PageState) -> Call | None:
@@ -104,7 +117,9 @@ def remember_ranges(now: PageState, shown: Mapping[str, Any]) -> PanelMemory:
     """The axes that the next charts hold."""
     axes = {_axis(now, one.name): one.chart.y for one in shown.get("strip", ())}
     ranges = {name: axis.range for name, axis in axes.items()}
-    ranges |= {name + _WHOLE: axis.whole.range for name, axis in axes.items() if axis.whole is not None}
+    ranges |= {
+        name + _WHOLE: axis.whole.range for name, axis in axes.items() if axis.whole is not None
+    }
     return replace(now.memory, ranges={**now.memory.ranges, **ranges})
 
 
@@ -133,5 +148,9 @@ def measured_trims(now: PageState) -> tuple[PanelWork, ...]:
 
 
 STRIP = Panel(
-    strip, asks=asks, works=lambda now: (*measured_trims(now), *shown_doubt(now)), turns=True, remember=remember_ranges
+    strip,
+    asks=asks,
+    works=lambda now: (*measured_trims(now), *shown_doubt(now)),
+    turns=True,
+    remember=remember_ranges,
 )

@@ -58,7 +58,9 @@ def _loads_work(now: PageState, solution: Solution, band: bool) -> PanelWork:
                 yield
                 trims[design] = analyse(design)
         yield
-        return (hub_loads(now.analyses.of(solution), solve=lambda design, _: trims[design], band=band),)
+        return (
+            hub_loads(now.analyses.of(solution), solve=lambda design, _: trims[design], band=band),
+        )
 
     return PanelWork("hub loads", (solution.design, band), run)
 
@@ -122,12 +124,17 @@ def _change(state: SessionState, loads: HubLoads, reference: HubLoads | None) ->
         return f"{number(percent, 0, sign=True)} % vs. {against}", ""
     low, high = (number(end, 0, sign=True) for end in band)
     kind = "good" if band[1] < 0.0 else "bad" if band[0] > 0.0 else ""
-    return f"{number(percent, 0, sign=True)} ({low}…{high}) % vs. {against}{'' if kind else ': unclear'}", kind
+    return (
+        f"{number(percent, 0, sign=True)} ({low}…{high}) % vs. {against}{'' if kind else ': unclear'}",
+        kind,
+    )
 
 
 def index_band(now: PageState) -> tuple[float, float] | None:
     """Ends over inflow models of the change of the index from the reference [%]; None where they are not known."""
-    if (state := now.state) is None or not all(one.design.models.bending for one in (state.solution, state.reference)):
+    if (state := now.state) is None or not all(
+        one.design.models.bending for one in (state.solution, state.reference)
+    ):
         return None
     loads, reference = (_loads(now, one, True) for one in (state.solution, state.reference))
     return None if loads is None or reference is None else loads.change_band(reference)

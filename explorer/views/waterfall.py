@@ -31,15 +31,23 @@ def waterfall_chart(steps: Sequence[WaterfallStep], units: Units = SI) -> Markup
         return tag("div.rx.rx-dim", "Computing …", data_explorer="waterfall", data_steps=0)
     powers = [step.budget for step in steps if step.budget is not None]
     # The total, without what a descent gives back.
-    lengths = [max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS)) for power in powers]
+    lengths = [
+        max(power.total, sum(max(getattr(power, part), 0.0) for part in PARTS)) for power in powers
+    ]
     top = 1.04 * max(lengths, default=1.0)
     links = [_link(step, 2.0 + k * _ROW, top) for k, step in enumerate(steps)]
     rows = [_row(step, 2.0 + k * _ROW, top, units) for k, step in enumerate(steps)]
     if (full := steps[-1]).budget is not None:
-        rows.append(_whole("All switched on", full.budget, full.design, 2.0 + len(steps) * _ROW, top, units))
+        rows.append(
+            _whole("All switched on", full.budget, full.design, 2.0 + len(steps) * _ROW, top, units)
+        )
     box = f"0 0 {WIDTH} {(len(steps) + 1) * _ROW - 8.0:.0f}"
-    drawn = tag("svg", links, rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power")
-    entries = [tag("span", readout.patch(PARTS[name]), name) for name in part_titles(steps[0].design)]
+    drawn = tag(
+        "svg", links, rows, viewBox=box, width="100%", role="img", aria_label="Waterfall of power"
+    )
+    entries = [
+        tag("span", readout.patch(PARTS[name]), name) for name in part_titles(steps[0].design)
+    ]
     key = tag("div.rx-dim.rx-small.rx-line", entries, tag("span", f"[{units.power[0].symbol}]"))
     return tag("div.rx.rx-waterfall", drawn, key, data_explorer="waterfall", data_steps=len(steps))
 
@@ -70,10 +78,14 @@ def _row(step: WaterfallStep, y: float, top: float, units: Units) -> Markup:
         place, look = (WIDTH, "rx-w-note rx-w-number") if long else (_BAR_LEFT, "rx-w-note")
         beneath = _words(place, y + 24, step.note, look)
     power = _words(WIDTH, y + 11, number(units.power[0].of(added), 1, sign=True), "rx-w-number")
-    return tag("g", tag("title", _spoken(step, units)), _words(0, y + 11, step.title), bar, power, beneath)
+    return tag(
+        "g", tag("title", _spoken(step, units)), _words(0, y + 11, step.title), bar, power, beneath
+    )
 
 
-def _whole(name: str, power: PowerBudget, design: Design, y: float, top: float, units: Units) -> Markup:
+def _whole(
+    name: str, power: PowerBudget, design: Design, y: float, top: float, units: Units
+) -> Markup:
     """A bar of all parts from zero."""
     x, rects, unit = _BAR_LEFT, list[Markup](), units.power[0]
     titles = part_titles(design)
@@ -104,7 +116,9 @@ def _spoken(step: WaterfallStep, units: Units) -> str:
     """The step in words, for those who point at it or have it read out."""
     change, unit = step.change or {}, units.power[0]
     titles = part_titles(step.design)
-    parts = ", ".join(f"{part} {unit.text(change[part], 1, sign=True)}" for part in titles if part in change)
+    parts = ", ".join(
+        f"{part} {unit.text(change[part], 1, sign=True)}" for part in titles if part in change
+    )
     what = step.switch.on if step.switch else ""
     return f"{step.title} on: {unit.text(step.added, 1, sign=True)} ({parts}). {what}"
 
@@ -151,13 +165,19 @@ def waterfall(now: PageState) -> dict[str, Any]:
     """The drawing. The last one stays, greyed, until that of the design on the page is known."""
     steps, current = _known(now)
     drawn = waterfall_chart(steps[:_CLIMB], now.units)
-    return {"details.waterfall": drawn if not steps or (current and not now.problem) else readout.faded(drawn)}
+    return {
+        "details.waterfall": drawn
+        if not steps or (current and not now.problem)
+        else readout.faded(drawn)
+    }
 
 
 def costs(now: PageState) -> dict[str, Any]:
     """What each switch costs, beside it; the last known stays."""
     alone = _known(now)[0][_CLIMB:]
-    words = {step.switch.name: cost_words(step, now.units) for step in alone if step.switch is not None}
+    words = {
+        step.switch.name: cost_words(step, now.units) for step in alone if step.switch is not None
+    }
     return {"switch.costs": words} if words else {}
 
 
@@ -167,7 +187,11 @@ def switched_alone(now: PageState) -> tuple[dict[str, WaterfallStep], bool]:
     Nothing where other effects than stall are off, since these steps have them all.
     """
     steps, current = _known(now)
-    off = {switch.name for switch in switched_off(now.state.solution.design.models)} if now.state else set[str]()
+    off = (
+        {switch.name for switch in switched_off(now.state.solution.design.models)}
+        if now.state
+        else set[str]()
+    )
     if off - {"stall"}:
         return {}, True
     return {step.switch.name: step for step in steps[_CLIMB:] if step.switch is not None}, current

@@ -10,7 +10,9 @@ def has_power(design: Design) -> bool:
     return design.models.trim != "free-rotor"
 
 
-def doubt_work(name: str, solution: Solution, reference: Solution | None, analyses: Analyses) -> PanelWork:
+def doubt_work(
+    name: str, solution: Solution, reference: Solution | None, analyses: Analyses
+) -> PanelWork:
     """How sure power is, and its change from the reference: a `Doubt` about the two designs."""
     run = as_one_step(lambda: doubt(analyses.of(solution), reference and analyses.of(reference)))
     return PanelWork(name, (solution.design, reference and reference.design), run, soon=True)
@@ -21,5 +23,7 @@ def shown_doubt(now: PageState) -> tuple[PanelWork, ...]:
     if (state := now.state) is None:
         return ()
     design, other = state.solution.design, state.reference
-    compared = other.converged and other.design != design and has_power(design) and has_power(other.design)
+    compared = (
+        other.converged and other.design != design and has_power(design) and has_power(other.design)
+    )
     return (doubt_work("doubt", state.solution, other if compared else None, now.analyses),)

@@ -8,7 +8,14 @@ from typing import Any, Literal
 
 from explorer.colours import PARTS
 from explorer.model.inputs import LAWS, Inputs
-from explorer.model.sliders import SLIDERS, SliderSensitivity, flight_sensitivities, limits, slider, twist_sensitivities
+from explorer.model.sliders import (
+    SLIDERS,
+    SliderSensitivity,
+    flight_sensitivities,
+    limits,
+    slider,
+    twist_sensitivities,
+)
 from explorer.model.units import SI, Units, number
 from explorer.parts.results import SliderSaving
 from explorer.text.readout import banded, fineness
@@ -34,9 +41,13 @@ def slopes_work(now: PageState) -> tuple[PanelWork, ...]:
     solution = state.solution
 
     about = (solution.design,)
-    of_twist = PanelWork("slopes", about, as_one_step(lambda: analyses.of(solution).gradient), soon=True)
+    of_twist = PanelWork(
+        "slopes", about, as_one_step(lambda: analyses.of(solution).gradient), soon=True
+    )
     works = of_twist, PanelWork("flight-slopes", about, lambda tell: flight_sensitivities(solution))
-    of_steps = PanelWork("twist-steps", about, lambda tell: step_bands(state.inputs, analyses.of(solution)))
+    of_steps = PanelWork(
+        "twist-steps", about, lambda tell: step_bands(state.inputs, analyses.of(solution))
+    )
     return (*works, of_steps) if state.inputs.design() == solution.design else works
 
 
@@ -48,7 +59,9 @@ def step_bands(inputs: Inputs, here: Analysis) -> Generator[None, None, Mapping[
         step, high = slider(name, SI).natural, limits(name)[1]
         step = step if getattr(inputs, name) + step <= high else -step
         with suppress(ValueError):
-            there = solve(replace(inputs, **{name: getattr(inputs, name) + step}).design(), here.solution)
+            there = solve(
+                replace(inputs, **{name: getattr(inputs, name) + step}).design(), here.solution
+            )
             if there.converged and (band := doubt(there, here).change_band) is not None:
                 found[name] = band
     return found
@@ -83,7 +96,12 @@ def worth(now: PageState) -> dict[str, Any]:
 
 
 def worth_row(
-    one: SliderSensitivity, power: PowerBudget, units: Units, band: float | None = None, *, stale: bool = False
+    one: SliderSensitivity,
+    power: PowerBudget,
+    units: Units,
+    band: float | None = None,
+    *,
+    stale: bool = False,
 ) -> SliderSaving:
     """The change of `power` by a step up, with its sign and band [W], and which way saves if that is known; one
     decimal more than power has."""
@@ -96,7 +114,11 @@ def worth_row(
     title = SLIDERS[one.name].label.partition(" [")[0]
     step = slider(one.name, units).per.removeprefix("/").removeprefix(" per ").strip("()")
     step = step if step[0].isdigit() else f"1{step}" if step[0] == "°" else f"1 {step}"
-    words = f"{value} {units.power[0].symbol}" if band is None else banded(change, band, units, least=digits, sign=True)
+    words = (
+        f"{value} {units.power[0].symbol}"
+        if band is None
+        else banded(change, band, units, least=digits, sign=True)
+    )
     less = f"less than {number(0.5 * 10.0**-digits, digits + 1)} {units.power[0].symbol}"
     sentence = f"{title}: {step} more changes power by {words if way else less}."
     if way and (band is None or sureness(change, band) == "unclear"):

@@ -18,11 +18,39 @@ import msgspec
 from rotor.support.markup import Markup, group, tag
 
 _FOLDER = Path(__file__).parent
-STYLES = ("widgets.css", "actuator.css", "dial.css", "frame.css", "panels.css", "story.css", "small.css", "big.css")
+STYLES = (
+    "widgets.css",
+    "actuator.css",
+    "dial.css",
+    "frame.css",
+    "panels.css",
+    "story.css",
+    "small.css",
+    "big.css",
+)
 """Style sheets of the page; those that come later outweigh those before."""
 SCRIPTS = (
-    *("viser.js", "common.js", "chart.js", "frame.js", "page.js", "keys.js", "scene.js", "disk.js", "line.js"),
-    *("cards.js", "charts.js", "inset.js", "plan.js", "ride.js", "twisting.js", "flight.js", "dial.js"),
+    *(
+        "viser.js",
+        "common.js",
+        "chart.js",
+        "frame.js",
+        "page.js",
+        "keys.js",
+        "scene.js",
+        "disk.js",
+        "line.js",
+    ),
+    *(
+        "cards.js",
+        "charts.js",
+        "inset.js",
+        "plan.js",
+        "ride.js",
+        "twisting.js",
+        "flight.js",
+        "dial.js",
+    ),
     *("spoken.js", "wipe.js", "story.js", "lecture.js"),
 )
 """Scripts of the page in the order in which they run: `viser.js` before viser's client; `common.js` defines
@@ -64,7 +92,9 @@ def policy(*names: str) -> Markup:
 
 def json_block(name: str, data: Any) -> Markup:
     """Data for a script, in an element of this id: no `<` in it, so that nothing ends the element."""
-    content = json.dumps(msgspec.to_builtins(data), separators=(",", ":"), allow_nan=False).replace("<", "\\u003c")
+    content = json.dumps(msgspec.to_builtins(data), separators=(",", ":"), allow_nan=False).replace(
+        "<", "\\u003c"
+    )
     return tag("script", Markup(content), id=name, type="application/json")
 
 

@@ -39,9 +39,18 @@ class TabContext:
     """The context of one page: its frame, the sliders of Explore, and what its parts share. Safe from any thread."""
 
     def __init__(
-        self, client: viser.ClientHandle, start: PageState, shared: SharedServices, callbacks: SessionCallbacks
+        self,
+        client: viser.ClientHandle,
+        start: PageState,
+        shared: SharedServices,
+        callbacks: SessionCallbacks,
     ) -> None:
-        self.client, self.gui, self.bridge, self.pool = client, client.gui, Bridge(client), shared.pool
+        self.client, self.gui, self.bridge, self.pool = (
+            client,
+            client.gui,
+            Bridge(client),
+            shared.pool,
+        )
         self.wake, self.state = callbacks.wake, callbacks.state
         self.tracker, self.pinboard = PowerTracker(), Pinboard(start.analyses.solve)
         self.analyses, self.work = start.analyses, LongWork(shared.pool, callbacks.wake)
@@ -49,7 +58,9 @@ class TabContext:
         self.layout.watchers.append(callbacks.wake)
         self.display = Display(self.bridge, start.view, callbacks.wake, callbacks.azimuth_changed)
         with self.layout.modes["explore"]:
-            self.controls = DesignControls(client.gui, self.bridge, start.inputs, self.tracker, callbacks)
+            self.controls = DesignControls(
+                client.gui, self.bridge, start.inputs, self.tracker, callbacks
+            )
         self.refreshing: list[Callable[[Design | None], None]] = []
         """Called after every frame with the design on the sliders; None: they mean none."""
         self.following: list[Callable[[SessionState | None], None]] = []
@@ -116,7 +127,9 @@ class Player:
         with self._lock:
             if self._pause is None:
                 pause = self._pause = threading.Event()
-                threading.Thread(target=self._run, args=(pause,), name=self._name, daemon=True).start()
+                threading.Thread(
+                    target=self._run, args=(pause,), name=self._name, daemon=True
+                ).start()
 
     def rest(self, resting: bool) -> None:
         """Whether it stands still, and plays on later."""

@@ -54,7 +54,12 @@ class DesignControls:
     """The widgets of one client's Explore mode, made once, and the view that goes with them."""
 
     def __init__(
-        self, gui: viser.GuiApi, bridge: Bridge, start: Inputs, tracker: PowerTracker, callbacks: SessionCallbacks
+        self,
+        gui: viser.GuiApi,
+        bridge: Bridge,
+        start: Inputs,
+        tracker: PowerTracker,
+        callbacks: SessionCallbacks,
     ) -> None:
         self._start, self._tracker, self._changed = start, tracker, callbacks.wake
         self._special = start
@@ -74,12 +79,19 @@ class DesignControls:
         self._speed = gui.add_html(_flight_heading(0.0, SI))
         self._sliders(FLIGHT, _ALWAYS)
         form.finer["mass_t"] = reference_mass_t(start.aircraft)
-        self.stand = StandControls(gui, self.inputs, self.set_inputs, partial(self._moved, True), callbacks.state)
+        self.stand = StandControls(
+            gui, self.inputs, self.set_inputs, partial(self._moved, True), callbacks.state
+        )
         self.stand.add_sliders(start)
         self._fold = gui.add_html("")
         with gui.add_folder("Model", expand_by_default=False):
             for name in ("preset", *INFLOW_MENUS):
-                form.menu(name, ROWS[name].title, INFLOW_MENUS.get(name, PRESET_TITLES), getattr(start, name))
+                form.menu(
+                    name,
+                    ROWS[name].title,
+                    INFLOW_MENUS.get(name, PRESET_TITLES),
+                    getattr(start, name),
+                )
                 if name == "inflow":
                     self._explanation = gui.add_html("")
             self._costs: dict[str, viser.GuiHtmlHandle] = {}
@@ -133,13 +145,21 @@ class DesignControls:
     def default(self, label: str, opening: Inputs) -> None:
         """Put the slider with this label where `opening` has it, or another rotor as it is built."""
         now = self.inputs()
-        base = opening if now.rotor == opening.rotor else with_rotor(opening, now.rotor, now.own_rotor)
+        base = (
+            opening if now.rotor == opening.rotor else with_rotor(opening, now.rotor, now.own_rotor)
+        )
         self.change(**{name: getattr(base, name) for name in self.form.sliders(label)})
 
     def follow(self, preview: Inputs | None) -> None:
         """Show a preview on the sliders; None: the user's own inputs again. `inputs` stay what they are."""
         with self._moving:
-            inputs = self._own if self._own is not None else self.inputs() if preview is not None else None
+            inputs = (
+                self._own
+                if self._own is not None
+                else self.inputs()
+                if preview is not None
+                else None
+            )
             if inputs is None:
                 return
             self._following, self._own = True, inputs
@@ -158,7 +178,9 @@ class DesignControls:
             if row.slider is None:
                 self.form.place(name, getattr(inputs, name))
             else:
-                self.form.fit(name, slider(name, self._units, inputs.aircraft), getattr(inputs, name))
+                self.form.fit(
+                    name, slider(name, self._units, inputs.aircraft), getattr(inputs, name)
+                )
         self.form.finer["mass_t"] = reference_mass_t(inputs.aircraft)
 
     def refresh(self, inputs: Inputs, units: Units) -> None:
@@ -170,8 +192,16 @@ class DesignControls:
             shown = inputs if self._own is None else self._special
         law, tested = LAWS[shown.law].inputs, inputs.stand is not None
         self.form.show({name: name in law and name not in shown.idle for name in _LAW_INPUTS})
-        counting = [name for name, row in FLIGHT.items() if inputs.counts(row) and not (tested and row.in_place)]
-        folded = [name for name in counting if name not in _ALWAYS and getattr(shown, name) == FLIGHT[name].default]
+        counting = [
+            name
+            for name, row in FLIGHT.items()
+            if inputs.counts(row) and not (tested and row.in_place)
+        ]
+        folded = [
+            name
+            for name in counting
+            if name not in _ALWAYS and getattr(shown, name) == FLIGHT[name].default
+        ]
         in_sight = set(counting) if self._more else set(counting) - set(folded)
         self.form.show({name: name in in_sight for name in FLIGHT})
         chosen = tested or shown.aircraft.isolated
@@ -180,7 +210,9 @@ class DesignControls:
         self.form.disable(dict.fromkeys(law, self._held))
         if self._own is None:
             self.stand.follow(inputs)
-        self._speed.content = _flight_heading(inputs.advance_ratio * inputs.tip_speed, units, tested)
+        self._speed.content = _flight_heading(
+            inputs.advance_ratio * inputs.tip_speed, units, tested
+        )
         self._explanation.content = readout.explanation(INFLOW_MODELS[inputs.inflow].explanation)
 
     def show_costs(self, costs: Mapping[str, str]) -> None:
@@ -195,8 +227,13 @@ class DesignControls:
     def _sliders(self, names: Iterable[str], seen: Iterable[str]) -> None:
         """With a row below each for the arrow of its power sensitivity."""
         for name in names:
-            form, below = slider(name, SI, self._start.aircraft), tag("div.rxp-worth", data_worth=name)
-            self.form.slider(name, form, float(getattr(self._start, name)), visible=name in seen, below=below)
+            form, below = (
+                slider(name, SI, self._start.aircraft),
+                tag("div.rxp-worth", data_worth=name),
+            )
+            self.form.slider(
+                name, form, float(getattr(self._start, name)), visible=name in seen, below=below
+            )
 
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name == "preset":
@@ -257,12 +294,18 @@ def _fold(folded: Iterable[str], more: bool, chosen: bool) -> Markup:
     names = [form.label.partition(" [")[0] for form in sliders] + ([] if chosen else ["Test stand"])
     if not names:
         return Markup()
-    following = [name if name.startswith("ISA") else f"{name[:1].lower()}{name[1:]}" for name in names[1:]]
+    following = [
+        name if name.startswith("ISA") else f"{name[:1].lower()}{name[1:]}" for name in names[1:]
+    ]
     few = len(names) if len(names) <= _NAMED + 1 else _NAMED
     words = "Fewer" if more else ", ".join((names[0], *following)[:few])
     if not more and few < len(names):
         words += " and more"
-    pressed = {"data_do": "more", "data_value": "off" if more else "on", "aria_expanded": str(more).lower()}
+    pressed = {
+        "data_do": "more",
+        "data_value": "off" if more else "on",
+        "aria_expanded": str(more).lower(),
+    }
     return tag("button.rxp-fold", words, **pressed)
 
 
@@ -271,4 +314,8 @@ _LAW_INPUTS = tuple(name for law in LAWS.values() for name in law.inputs)
 
 def _laws_of(inputs: Inputs) -> dict[str, str]:
     """The menu of laws: those that are not always there only where `inputs` hold them."""
-    return {key: law.title for key, law in LAWS.items() if key not in NOT_ALWAYS or getattr(inputs, key) is not None}
+    return {
+        key: law.title
+        for key, law in LAWS.items()
+        if key not in NOT_ALWAYS or getattr(inputs, key) is not None
+    }

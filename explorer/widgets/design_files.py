@@ -48,9 +48,13 @@ class UploadedFiles:
         Raises ValueError with one sentence for a file that cannot be used; nothing that was kept is lost.
         """
         if len(content) > LARGEST_FILE:
-            raise ValueError(f"{name} has {len(content) / 1e6:.1f} MB: the limit for rotor files is 2 MB.")
+            raise ValueError(
+                f"{name} has {len(content) / 1e6:.1f} MB: the limit for rotor files is 2 MB."
+            )
         if len(self.texts) >= _MOST_FILES and name not in self.texts:
-            raise ValueError(f"{_MOST_FILES} files are loaded already: reload the page to start again.")
+            raise ValueError(
+                f"{_MOST_FILES} files are loaded already: reload the page to start again."
+            )
         try:
             text = text_of(content)
         except UnicodeDecodeError:
@@ -62,9 +66,13 @@ class UploadedFiles:
             if name in map(_base_name, named):
                 return self._rotor(self.rotor, {**self.texts, name: text})
         if name.lower().endswith(_DESIGN_FILE):
-            raise ValueError(f"{name} is not a rotor file ({_ROTOR_FILE}): use Load design for a design.")
+            raise ValueError(
+                f"{name} is not a rotor file ({_ROTOR_FILE}): use Load design for a design."
+            )
         self.texts[name] = text
-        return UploadResult(f"{name} waits for a rotor file ({_ROTOR_FILE}) that names it under [sections]: load that.")
+        return UploadResult(
+            f"{name} waits for a rotor file ({_ROTOR_FILE}) that names it under [sections]: load that."
+        )
 
     def _rotor(self, name: str, texts: dict[str, str]) -> UploadResult:
         """A rotor file, when all that it names is here; it is kept while one of these cannot be used."""
@@ -92,7 +100,9 @@ def _result_line(context: TabContext) -> Callable[..., None]:
     line = context.gui.add_html("")
 
     def report(title: str, sentence: str, kind: str = "done") -> None:
-        stays = tag("div.rx.rx-small.rx-export", brief(sentence), data_explorer="upload", data_kind=kind)
+        stays = tag(
+            "div.rx.rx-small.rx-export", brief(sentence), data_explorer="upload", data_kind=kind
+        )
         line.content = Markup() if kind == "done" else stays
         context.notify(title, sentence)
 
@@ -103,7 +113,11 @@ def add_rotor_upload(context: TabContext) -> None:
     """The button for the files of a rotor of one's own, and what they lead to."""
     files = UploadedFiles()
     button = context.gui.add_upload_button(
-        "Load rotor file …", icon=viser.Icon.UPLOAD, color="gray", mime_type="*/*", hint=hint("rotor_file")
+        "Load rotor file …",
+        icon=viser.Icon.UPLOAD,
+        color="gray",
+        mime_type="*/*",
+        hint=hint("rotor_file"),
     )
 
     report = _result_line(context)
@@ -118,14 +132,20 @@ def add_rotor_upload(context: TabContext) -> None:
         except ValueError as error:
             report("Not loaded", str(error), "problem")
             return
-        report(*(("Rotor", result.sentence) if result.aircraft else ("Kept", result.sentence, "waits")))
+        report(
+            *(("Rotor", result.sentence) if result.aircraft else ("Kept", result.sentence, "waits"))
+        )
 
     button.on_upload(uploaded)
 
 
 def _about(fits: bool) -> str:
     """What the button of the link will do."""
-    words = "Anyone with the link sees this design." if fits else "Too large for a link: save a file, and send that."
+    words = (
+        "Anyone with the link sees this design."
+        if fits
+        else "Too large for a link: save a file, and send that."
+    )
     return tag("div.rx.rx-dim.rx-small", words)
 
 
@@ -153,7 +173,11 @@ class FilePanel:
             self._link = gui.add_button("Copy link", icon=viser.Icon.LINK, hint=hint("link"))
         with folder:
             self._load = gui.add_upload_button(
-                "Load design", icon=viser.Icon.UPLOAD, color="gray", mime_type=_DESIGN_FILE, hint=hint("load")
+                "Load design",
+                icon=viser.Icon.UPLOAD,
+                color="gray",
+                mime_type=_DESIGN_FILE,
+                hint=hint("load"),
             )
             self._report = _result_line(context)
         context.leaving.append(address.stop)
@@ -170,7 +194,9 @@ class FilePanel:
         pinned = None if state.pin is None else state.pin.inputs
         for name, inputs in ((share.DESIGN, state.inputs), (share.PINNED, pinned)):
             try:
-                self._address[name] = None if inputs is None else self._code_of(name, inputs.design())
+                self._address[name] = (
+                    None if inputs is None else self._code_of(name, inputs.design())
+                )
             except ValueError:
                 continue  # It cannot be written; the last one stays.
         carried = state.solution.design.rotor.blade.carried
@@ -208,14 +234,18 @@ class FilePanel:
         if (state := self._context.state()) is not None:
             self.follow(state)
         browser.copy_link(self._context.client, self._address.query)
-        self._context.notify("Link copied", "It opens this design. The address of the page is the same link.")
+        self._context.notify(
+            "Link copied", "It opens this design. The address of the page is the same link."
+        )
 
     def _loaded(self, event: viser.GuiEvent[Any]) -> None:
         file = event.target.value
         name = shorten(file.name)
         try:
             if len(file.content) > share.MOST_BYTES:
-                raise ValueError(f"{name} has {len(file.content)} bytes: design files have at most {share.MOST_BYTES}.")
+                raise ValueError(
+                    f"{name} has {len(file.content)} bytes: design files have at most {share.MOST_BYTES}."
+                )
             with refusing(f"design file {name!r}", "check its values"):
                 design = parse_design(file.content, name)
                 inputs, carried = share.within(inputs_of(design)), design.rotor.blade.carried

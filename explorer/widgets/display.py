@@ -26,7 +26,11 @@ class Display:
     """The view of one client. It has no widgets of viser's: the frame shows it and reports what is pressed."""
 
     def __init__(
-        self, bridge: Bridge, start: ViewState, changed: Callable[[], None], turned: Callable[[], None]
+        self,
+        bridge: Bridge,
+        start: ViewState,
+        changed: Callable[[], None],
+        turned: Callable[[], None],
     ) -> None:
         """`changed`: something is shown otherwise. `turned`: it was only the reference blade."""
         self._bridge, self._changed, self._turned = bridge, changed, turned
@@ -72,7 +76,11 @@ class Display:
         self._show_field()
 
     def show_range(
-        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool]
+        self,
+        field: Field,
+        colour_range: tuple[float, float],
+        faded: bool,
+        beyond: tuple[bool, bool],
     ) -> None:
         """The colour bar of a field; `beyond`: whether values lie below its range, and above."""
         self._range, self._faded, self._beyond = (field, colour_range), faded, beyond
@@ -141,7 +149,9 @@ def _shares(solution: Solution, view: ViewState) -> dict[str, str]:
     stall = {"stall": f"{number(100.0 * area, 1)} %"} if (area := solution.stalled_area) else {}
     shown = {name: lines for name, (_, lines) in OUTLINES.items() if getattr(view, name)}
     none = {"stall": "none" if solution.design.models.stall else "not modelled"}
-    return {name: none.get(name, "none") for name, lines in shown.items() if not len(lines(solution))} | stall
+    return {
+        name: none.get(name, "none") for name, lines in shown.items() if not len(lines(solution))
+    } | stall
 
 
 @cache

@@ -33,12 +33,21 @@ class WorkButtons:
     """Buttons that begin and stop long work, and the bar of its progress."""
 
     def __init__(
-        self, gui: viser.GuiApi, begin: str, stop: str, entries: tuple[str, str], *actions: Callable[[], None]
+        self,
+        gui: viser.GuiApi,
+        begin: str,
+        stop: str,
+        entries: tuple[str, str],
+        *actions: Callable[[], None],
     ) -> None:
         """`entries`: of the glossary, and `actions`, of the two buttons."""
         self.begin = gui.add_button(begin, icon=viser.Icon.PLAYER_PLAY, hint=hint(entries[0]))
         self._halt = gui.add_button(
-            stop, icon=viser.Icon.PLAYER_STOP, color=(201, 42, 42), visible=False, hint=hint(entries[1])
+            stop,
+            icon=viser.Icon.PLAYER_STOP,
+            color=(201, 42, 42),
+            visible=False,
+            hint=hint(entries[1]),
         )
         self._bar = gui.add_progress_bar(0.0)
         for button, action in zip((self.begin, self._halt), actions, strict=True):

@@ -27,7 +27,14 @@ from explorer.hosting.browser import call
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
 from explorer.model.units import units_of
-from explorer.picture.camera_views import FIELD_OF_VIEW, RIDE_VIEW, Camera, camera_axes, riding, seen_at
+from explorer.picture.camera_views import (
+    FIELD_OF_VIEW,
+    RIDE_VIEW,
+    Camera,
+    camera_axes,
+    riding,
+    seen_at,
+)
 from explorer.picture.element import AZIMUTHS, turn_of
 from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
@@ -61,7 +68,12 @@ class ExportPanel:
         place: Callable[[], tuple[float, float]],
     ) -> None:
         """`now`: all that is known. `place`: of the probe, r/R and ψ [°]."""
-        self._context, self._scene, self._history, self._actuator = context, scene, history, actuator
+        self._context, self._scene, self._history, self._actuator = (
+            context,
+            scene,
+            history,
+            actuator,
+        )
         self._now, self._place = now, place
         self._busy = threading.Lock()
         self._curves = PowerCurves()
@@ -77,7 +89,9 @@ class ExportPanel:
             ):
                 button = context.gui.add_button(name, color="gray", hint=hint("export"))
                 button.on_click(lambda _, asked=(name, ending, make): self._save(*asked))
-            self._shape = context.gui.add_dropdown("Shape of picture", _PICTURES, hint=hint("picture_shape"))
+            self._shape = context.gui.add_dropdown(
+                "Shape of picture", _PICTURES, hint=hint("picture_shape")
+            )
             self._state = context.gui.add_html("")
         self._say("idle", "Exports the design on the sliders.")
         context.keyboard.bind("export", lambda: context.layout.open_drawer("share"))
@@ -86,22 +100,38 @@ class ExportPanel:
         """All that is known, and how sure power and its change are, worked out where that is not known."""
         now = self._now()
         tasks = (task for task in works(now) if task.key not in now.answers)
-        return replace(now, answers={**now.answers, **{task.key: at_once(task.run(lambda: None)) for task in tasks}})
+        return replace(
+            now,
+            answers={
+                **now.answers,
+                **{task.key: at_once(task.run(lambda: None)) for task in tasks},
+            },
+        )
 
     def _tables(self, state: SessionState) -> bytes:
         design, reference = state.solution.design, state.reference.design
         at_once(self._curves.sweep(design, reference))
-        return tables_zip(state.solution, reference, self._curves.known(design, reference), state.view.azimuth_deg)
+        return tables_zip(
+            state.solution, reference, self._curves.known(design, reference), state.view.azimuth_deg
+        )
 
     def _picture(self, state: SessionState) -> bytes:
         """The scene framed anew for the picture's shape, the same from a window of any size."""
         shape, _, ground = self._shape.value.partition(", ")
         scene, camera = self._render(SHAPES[shape])
         words = self._actuator.blade.labels
-        places = seen_at(camera, np.array([at for _, at in words]), SHAPES[shape] / HEIGHT) if words else ()
-        labels = [(text, float(x), float(y)) for (text, _), (x, y) in zip(words, places, strict=True)]
+        places = (
+            seen_at(camera, np.array([at for _, at in words]), SHAPES[shape] / HEIGHT)
+            if words
+            else ()
+        )
+        labels = [
+            (text, float(x), float(y)) for (text, _), (x, y) in zip(words, places, strict=True)
+        ]
         line = line_text(self._whole())
-        return view_png(scene, state.solution, self._scene.scale, line, state.view.dark, labels, bool(ground))
+        return view_png(
+            scene, state.solution, self._scene.scale, line, state.view.dark, labels, bool(ground)
+        )
 
     def _film(self, state: SessionState) -> bytes:
         """One turn with the section of the probe, seen as the page rides with it."""
@@ -116,12 +146,16 @@ class ExportPanel:
                 self._say("busy", f"Film: picture {count + 1} of {AZIMUTHS} …")
                 psi = 2.0 * math.pi * k / AZIMUTHS
                 call(client, "rotorScene.ride", psi, seat)
-                frames.append(self._seen(riding(solution, ride.out, psi), RIDE_VIEW, film.WIDTH, film.HEIGHT))
+                frames.append(
+                    self._seen(riding(solution, ride.out, psi), RIDE_VIEW, film.WIDTH, film.HEIGHT)
+                )
         finally:
             call(client, "rotorScene.leave")
             self._scene.play(False)
             self._scene.camera.hold(False)
-        horizons = [film.horizon(riding(solution, ride.out, 2.0 * math.pi * k / AZIMUTHS)) for k in azimuths]
+        horizons = [
+            film.horizon(riding(solution, ride.out, 2.0 * math.pi * k / AZIMUTHS)) for k in azimuths
+        ]
         return film.gif(frames, ride, azimuths, horizons, state.view.dark)
 
     def _render(self, width: int) -> tuple[NDArray[np.uint8], Camera]:
@@ -132,11 +166,15 @@ class ExportPanel:
     def _seen(self, camera: Camera, view: float, width: int, height: int) -> NDArray[np.uint8]:
         """The scene as this camera sees it at a vertical field of view [rad], (height, width, 4)."""
         if not self._scene.drawn:
-            raise ValueError("This browser draws no 3D: export the report, or use a browser with WebGL.")
+            raise ValueError(
+                "This browser draws no 3D: export the report, or use a browser with WebGL."
+            )
         turn = SO3.from_matrix(np.stack(camera_axes(camera), axis=1)).wxyz
         seen = {"wxyz": turn, "position": camera.position, "fov": view}
         try:
-            pixels = self._context.client.get_render(height, width, **seen, transport_format="png", timeout=_PATIENCE)
+            pixels = self._context.client.get_render(
+                height, width, **seen, transport_format="png", timeout=_PATIENCE
+            )
             if pixels.shape[:2] != (height, width):
                 raise RuntimeError("The picture has another size.")
         except RuntimeError as error:  # The browser has left, or cannot draw.
@@ -148,11 +186,15 @@ class ExportPanel:
         solution, pinned, view = state.solution, state.pinned, replace(state.view, difference=False)
         now = self._whole()
         if state.pin is None:
-            reference = ReportEntry(baseline_title(solution.design, state.baseline.design), state.baseline)
+            reference = ReportEntry(
+                baseline_title(solution.design, state.baseline.design), state.baseline
+            )
         else:
             # A may not converge in the present flight condition; then its own solution is used.
             flies = pinned is not None and pinned.converged
-            reference = ReportEntry("A, pinned", pinned if pinned is not None and flies else state.pin.solution)
+            reference = ReportEntry(
+                "A, pinned", pinned if pinned is not None and flies else state.pin.solution
+            )
         known = (solution.design, reference.solution.design)
         others = [item for item in self._history.kept if item.solution.design not in known]
         entries = [ReportEntry("Now", solution)]
@@ -168,10 +210,15 @@ class ExportPanel:
             driven=actuated_blade(now) if now.hand.on_board else None,
             line=line_text(now),
         )
-        stage = make_stage([entry.solution for entry in report.shown], view, report.colour_range(field))
+        stage = make_stage(
+            [entry.solution for entry in report.shown], view, report.colour_range(field)
+        )
         rotor = io.BytesIO()
-        with suppress(ValueError):  # A browser that cannot draw, or has left, still gets its report.
-            Image.fromarray(self._render(SHAPES["16:9"])[0]).resize((1200, 675)).save(rotor, "WEBP", quality=85)
+        # A browser that cannot draw, or has left, still gets its report.
+        with suppress(ValueError):
+            Image.fromarray(self._render(SHAPES["16:9"])[0]).resize((1200, 675)).save(
+                rotor, "WEBP", quality=85
+            )
         return report_html(report, stage, self._curves, rotor.getvalue() or None).encode()
 
     def _save(self, what: str, ending: str, make: Callable[[SessionState], bytes]) -> None:
@@ -183,9 +230,13 @@ class ExportPanel:
             self._say("busy", f"Busy: press {what} again when it is done.")
         else:
             self._say("busy", f"{what}: in progress …")
-            threading.Thread(target=self._make, args=(what, ending, make, state), name="export", daemon=True).start()
+            threading.Thread(
+                target=self._make, args=(what, ending, make, state), name="export", daemon=True
+            ).start()
 
-    def _make(self, what: str, ending: str, make: Callable[[SessionState], bytes], state: SessionState) -> None:
+    def _make(
+        self, what: str, ending: str, make: Callable[[SessionState], bytes], state: SessionState
+    ) -> None:
         begin = time.perf_counter()
         try:
             name, content = file_name(state.solution.design, ending), make(state)
@@ -210,9 +261,13 @@ class ExportPanel:
 
 def _live(state: SessionState) -> bytes:
     """The present design, its twist on sliders that need no server."""
-    return live_html(state.solution, units_of(state.view.units, state.solution.design.aircraft)).encode()
+    return live_html(
+        state.solution, units_of(state.view.units, state.solution.design.aircraft)
+    ).encode()
 
 
 def _design_file(state: SessionState) -> bytes:
     """As `--case` and `--design` read it: with every number of a twist that has but a name on the page."""
-    return (json.dumps(state.solution.design.to_dict(), indent=2, ensure_ascii=False) + "\n").encode()
+    return (
+        json.dumps(state.solution.design.to_dict(), indent=2, ensure_ascii=False) + "\n"
+    ).encode()

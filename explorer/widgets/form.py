@@ -62,35 +62,78 @@ class WidgetForm:
         self._units = SI
 
     def slider(
-        self, name: str, form: Slider, value: float, *, entry: str = "", visible: bool = True, below: str = ""
+        self,
+        name: str,
+        form: Slider,
+        value: float,
+        *,
+        entry: str = "",
+        visible: bool = True,
+        below: str = "",
     ) -> None:
         """`entry`: of the glossary, where it has another name. `below`: HTML under the slider, shown with it."""
         place = self._defaults[name] = min(max(value, form.low), form.high)
         self._placed[name] = place, place
         self._add(
-            name, self._gui.add_slider, form.label, form.low, form.high, form.step, place, entry=entry, visible=visible
+            name,
+            self._gui.add_slider,
+            form.label,
+            form.low,
+            form.high,
+            form.step,
+            place,
+            entry=entry,
+            visible=visible,
         )
         self._handles[name].precision = form.digits  # By default viser shows all digits.
         if below:
             self._below[name] = self._gui.add_html(below, visible=visible)
 
-    def span(self, name: str, label: str, ends: Ends, value: Ends, least: float, entry: str = "") -> None:
+    def span(
+        self, name: str, label: str, ends: Ends, value: Ends, least: float, entry: str = ""
+    ) -> None:
         """A slider with two handles that stay `least` apart."""
-        self._add(name, self._gui.add_multi_slider, label, *ends, 0.01, value, min_range=least, entry=entry)
+        self._add(
+            name,
+            self._gui.add_multi_slider,
+            label,
+            *ends,
+            0.01,
+            value,
+            min_range=least,
+            entry=entry,
+        )
 
     def menu(
-        self, name: str, label: str, titles: Titles, value: Any = None, *, entry: str = "", visible: bool = True
+        self,
+        name: str,
+        label: str,
+        titles: Titles,
+        value: Any = None,
+        *,
+        entry: str = "",
+        visible: bool = True,
     ) -> None:
         """`titles`: by what they mean; `value`: the meaning that is chosen first, by default the first."""
         self._titles[name] = titles
         first = next(iter(titles.values())) if value is None else titles[value]
         options = tuple(titles.values())
-        self._add(name, self._gui.add_dropdown, label, options, initial_value=first, entry=entry, visible=visible)
+        self._add(
+            name,
+            self._gui.add_dropdown,
+            label,
+            options,
+            initial_value=first,
+            entry=entry,
+            visible=visible,
+        )
 
     def box(self, name: str, label: str, value: bool) -> None:
         self._add(name, self._gui.add_checkbox, label, value)
 
-    def _add(self, name: str, add: Callable[..., Any], *arguments: Any, entry: str = "", **options: Any) -> None:
+    def _add(
+        self, name: str, add: Callable[..., Any], *arguments: Any, entry: str = "", **options: Any
+    ) -> None:
         handle = self._handles[name] = add(*arguments, hint=hint(entry or name), **options)
 
         def heard(event: Any) -> None:
@@ -118,7 +161,11 @@ class WidgetForm:
 
     def sliders(self, label: str) -> list[str]:
         """Names of the sliders that are shown with this label."""
-        return [n for n in self._defaults if self._handles[n].label == label and self._handles[n].visible]
+        return [
+            n
+            for n in self._defaults
+            if self._handles[n].label == label and self._handles[n].visible
+        ]
 
     def default(self, label: str) -> None:
         """Put the sliders with this label back to where they began, as a hand does."""
@@ -149,7 +196,12 @@ class WidgetForm:
     def fit(self, name: str, form: Slider, value: float) -> None:
         """Move a slider whose label, ends or step may be others."""
         handle = self._handles[name]
-        if (handle.label, handle.min, handle.max, handle.step) == (form.label, form.low, form.high, form.step):
+        if (handle.label, handle.min, handle.max, handle.step) == (
+            form.label,
+            form.low,
+            form.high,
+            form.step,
+        ):
             self.place(name, value)
             return
         # In an order that never leaves the value outside its ends.
@@ -160,7 +212,11 @@ class WidgetForm:
 
     def translate(self, units: Units, forms: Callable[[str], Slider]) -> None:
         """Sliders in other units, as `forms` has them by name; the values stay."""
-        values = {name: self[name] for name, row in self._rows.items() if row.aviation and name in self._handles}
+        values = {
+            name: self[name]
+            for name, row in self._rows.items()
+            if row.aviation and name in self._handles
+        }
         self._units = units
         for name, value in values.items():
             self.fit(name, forms(name), value)
@@ -202,8 +258,18 @@ class WidgetForm:
 
 _NONE = "–"
 """In the menus of measured conditions: no measured condition is set."""
-_TRIM, _TEST, _POINT, _LOAD, _FLAPPING = "trim", "measured_test", "measured_point", "stand_load", "stand_flapping"
-_FLAPPINGS: dict[Flapping, str] = {"trimmed": "Trimmed by cyclic", "free": "Free", "hub-moments": "Gives moments"}
+_TRIM, _TEST, _POINT, _LOAD, _FLAPPING = (
+    "trim",
+    "measured_test",
+    "measured_point",
+    "stand_load",
+    "stand_flapping",
+)
+_FLAPPINGS: dict[Flapping, str] = {
+    "trimmed": "Trimmed by cyclic",
+    "free": "Free",
+    "hub-moments": "Gives moments",
+}
 
 
 class StandControls:
@@ -238,7 +304,11 @@ class StandControls:
 
     def place(self, inputs: Inputs) -> None:
         self.stand = stand = inputs.stand
-        titles = {key: title for key, title in TRIM_TITLES.items() if key != "flight" or not inputs.aircraft.isolated}
+        titles = {
+            key: title
+            for key, title in TRIM_TITLES.items()
+            if key != "flight" or not inputs.aircraft.isolated
+        }
         self.form.offer(_TRIM, titles, "flight" if stand is None else stand.trim)
         self.follow(inputs)
         seen = () if stand is None else _seen(stand)
@@ -254,24 +324,41 @@ class StandControls:
 
     def _fit(self, inputs: Inputs, name: str, value: float) -> None:
         form = stand_slider(name, inputs)
-        self.form.fit(name, replace(form, low=min(form.low, value), high=max(form.high, value)), round(value, 6))
+        self.form.fit(
+            name,
+            replace(form, low=min(form.low, value), high=max(form.high, value)),
+            round(value, 6),
+        )
 
     def follow(self, inputs: Inputs) -> None:
         """The measured condition that is set, in flight one of flights; air and speed of the tip, given or not."""
         stand, flown = self.stand, inputs.stand is None
         if stand is not None:
-            air = FlightCondition(0.0, 1e3, inputs.altitude_m, inputs.isa_offset_c)  # Its mass does not matter.
+            # Its mass does not matter.
+            air = FlightCondition(0.0, 1e3, inputs.altitude_m, inputs.isa_offset_c)
             mach = stand.tip_mach
-            self._fit(inputs, "tip_mach", inputs.tip_speed / air.sound_speed if mach is None else mach)
+            self._fit(
+                inputs, "tip_mach", inputs.tip_speed / air.sound_speed if mach is None else mach
+            )
             self._fit(inputs, "density", air.density if stand.density is None else stand.density)
-        conditions = [one for one in measured_conditions(inputs.rotor) if (one.stand is None) == flown]
-        here = (one for one in conditions if all(getattr(inputs, name) == at for name, at in one.inputs.items()))
+        conditions = [
+            one for one in measured_conditions(inputs.rotor) if (one.stand is None) == flown
+        ]
+        here = (
+            one
+            for one in conditions
+            if all(getattr(inputs, name) == at for name, at in one.inputs.items())
+        )
         now = next(here, None)
         tests = [_NONE, *dict.fromkeys(condition.test for condition in conditions)]
         self.form.show({_TEST: bool(conditions), _POINT: now is not None})
         self.form.offer(_TEST, {name: name for name in tests}, _NONE if now is None else now.test)
         if now is not None:
-            labels = {condition.label: condition.label for condition in conditions if condition.test == now.test}
+            labels = {
+                condition.label: condition.label
+                for condition in conditions
+                if condition.test == now.test
+            }
             self.form.offer(_POINT, labels, now.label)
 
     def _heard(self, name: str, by_hand: bool) -> None:
@@ -284,7 +371,9 @@ class StandControls:
         elif name == _LOAD:
             self._change_load(value)
         elif name == _TEST and value != _NONE:
-            self.set_measured(opening([condition for condition in conditions if condition.test == value]))
+            self.set_measured(
+                opening([condition for condition in conditions if condition.test == value])
+            )
         elif name == _POINT:
             for condition in conditions:
                 if (condition.test, condition.label) == (self.form[_TEST], value):
@@ -292,7 +381,9 @@ class StandControls:
         elif self.stand is not None and name == _FLAPPING:
             self._change(replace(self.stand, flapping=value))
         elif self.stand is not None and name in STAND_SLIDERS:
-            self.stand = replace(self.stand, **{"value" if name in LOAD_TITLES else name: float(value)})  # pyright: ignore[reportArgumentType]
+            self.stand = replace(
+                self.stand, **{"value" if name in LOAD_TITLES else name: float(value)}
+            )  # pyright: ignore[reportArgumentType]
             self._moved()
 
     def _change(self, stand: StandInputs | None) -> None:
@@ -303,7 +394,11 @@ class StandControls:
     def _solution(self) -> Any:
         """The last solution, if it is of the present rotor."""
         state = self._state()
-        return state.solution if state is not None and state.inputs.aircraft == self._inputs().aircraft else None
+        return (
+            state.solution
+            if state is not None and state.inputs.aircraft == self._inputs().aircraft
+            else None
+        )
 
     def _change_trim(self, trim: str) -> None:
         if trim == "flight":
@@ -312,7 +407,9 @@ class StandControls:
         solution = self._solution()
         begin = self.stand or (StandInputs() if solution is None else equivalent_stand(solution))
         collective = None if solution is None else load_of(solution, "collective_deg")
-        self._change(begin.with_trim(next(known for known in STAND_TRIMS if known == trim), collective))
+        self._change(
+            begin.with_trim(next(known for known in STAND_TRIMS if known == trim), collective)
+        )
 
     def _change_load(self, load: str) -> None:
         solution = self._solution()

@@ -35,7 +35,9 @@ def kept_rows(kept: Sequence[KeptDesign], units: Units = SI) -> Markup:
         return tag("div.rx-dim.rx-small", "No bookmarks yet. Press Keep to add this design.")
     rows: list[Markup] = []
     for k, item in enumerate(kept):
-        take, drop = ({"data_write": FIELD, "data_value": f"{verb} {k}"} for verb in ("take", "drop"))
+        take, drop = (
+            {"data_write": FIELD, "data_value": f"{verb} {k}"} for verb in ("take", "drop")
+        )
         flight = tag("div.rx-dim.rx-small", flight_name(item.inputs, units))
         name = tag("div", title_words(item.solution.design)), flight
         rows.append(
@@ -55,7 +57,9 @@ def _spark(solution: Solution) -> Markup:
     width, height = _SPARK
     r = np.linspace(solution.design.rotor.blade.root_cutout, 1.0, 24)
     angle = np.clip(np.degrees(solution.design.twist(r)) / 12.0, -1.0, 1.0)
-    points = " ".join(f"{width * x:.1f},{0.5 * height * (1.0 - y):.1f}" for x, y in zip(r, angle, strict=True))
+    points = " ".join(
+        f"{width * x:.1f},{0.5 * height * (1.0 - y):.1f}" for x, y in zip(r, angle, strict=True)
+    )
     zero = tag("path", d=f"M0,{0.5 * height} h{width}", stroke="currentColor", opacity=0.25)
     twist = tag("polyline", points=points, fill="none", stroke=THIS, stroke_width=1.6)
     return tag("svg", zero, twist, width=width, height=height)
@@ -77,7 +81,9 @@ class HistoryPanel:
         self._context, self._hand, self._carry, gui = context, hand, carry, context.gui
         self._lock = threading.RLock()
         before = share.read_history(stored, start)
-        past, future = ([Step((one, None)) for one in steps] for steps in (before.past, reversed(before.future)))
+        past, future = (
+            [Step((one, None)) for one in steps] for steps in (before.past, reversed(before.future))
+        )
         self._history = History[Step]((start, None), past, future)
         self._stored = stored
         self._kept: list[KeptDesign] = []
@@ -146,9 +152,14 @@ class HistoryPanel:
     def store(self) -> None:
         """Give the page the history to keep, now that it rests; a reload or a restart of the server restores it."""
         with self._lock:
-            history, bookmarks = self._history, (*self._waiting, *(item.inputs for item in self._kept))
+            history, bookmarks = (
+                self._history,
+                (*self._waiting, *(item.inputs for item in self._kept)),
+            )
             future = tuple(reversed(history.future))
-            past, future = (tuple(inputs for inputs, _ in steps) for steps in (history.past, future))
+            past, future = (
+                tuple(inputs for inputs, _ in steps) for steps in (history.past, future)
+            )
             kept = StoredHistory(past, history.present[0], future, bookmarks)
         text = kept.text()  # A hundred designs: nobody need wait for them.
         if text != self._stored:

@@ -53,8 +53,17 @@ class Layout:
             for name, title in DRAWERS.items():
                 self.drawers[name] = gui.add_folder(None, visible=False)
                 with self.drawers[name]:
-                    close = tag("button", "×", data_do="drawer", data_value="", aria_label="Close", title="Close (Esc)")
-                    gui.add_html(tag("div.rxp-title", title, close, data_explorer="drawer", data_name=name))
+                    close = tag(
+                        "button",
+                        "×",
+                        data_do="drawer",
+                        data_value="",
+                        aria_label="Close",
+                        title="Close (Esc)",
+                    )
+                    gui.add_html(
+                        tag("div.rxp-title", title, close, data_explorer="drawer", data_name=name)
+                    )
         self._panel.dock_left()
         self.enlarge(False)
         bridge.on("mode", self.show_mode)
@@ -98,7 +107,9 @@ class Layout:
 class Sections:
     """Parts of a rail or a drawer of which one is shown, with a row of buttons above them."""
 
-    def __init__(self, gui: viser.GuiApi, bridge: Bridge, name: str, titles: tuple[str, ...]) -> None:
+    def __init__(
+        self, gui: viser.GuiApi, bridge: Bridge, name: str, titles: tuple[str, ...]
+    ) -> None:
         """`name`: of the row in the frame; no other has it."""
         self._name, self._now = name, titles[0]
         self._row = gui.add_html("")
@@ -120,7 +131,13 @@ class Sections:
 
     def _draw(self) -> None:
         buttons = [
-            tag("button", title, data_do=self._name, data_value=title, aria_pressed=str(title == self._now).lower())
+            tag(
+                "button",
+                title,
+                data_do=self._name,
+                data_value=title,
+                aria_pressed=str(title == self._now).lower(),
+            )
             for title in self._parts
         ]
         self._row.content = tag("div.rxp-sections", buttons, role="group")

@@ -21,7 +21,14 @@ from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
 from explorer.picture.element import Probe, probe, turn_of
-from explorer.picture.picture import LINE_LIFT, axis_rotation, drawn_bending, drawn_times, flown_twist, rotate
+from explorer.picture.picture import (
+    LINE_LIFT,
+    axis_rotation,
+    drawn_bending,
+    drawn_times,
+    flown_twist,
+    rotate,
+)
 from explorer.scene.controller import TURN_RATE, SceneController
 from explorer.text.glossary import hint
 from explorer.text.readout import faded
@@ -58,7 +65,9 @@ class ProbeCursor:
             handle.visible = False
         self._drawn: tuple[object, ...] | None = None
 
-    def show(self, rotor: Rotor, probe: Probe, pitch: float | None, bent: Array | None = None) -> None:
+    def show(
+        self, rotor: Rotor, probe: Probe, pitch: float | None, bent: Array | None = None
+    ) -> None:
         """At the probe; `pitch`: of the blade's own section there, as it is drawn [rad], None: no blade is there.
         `bent`: where bending moves the section to, as drawn [m], (1, 3)."""
         self._scale(rotor)
@@ -93,9 +102,13 @@ class ProbeCursor:
         if rotor == self._rotor:
             return
         self._rotor, radius = rotor, rotor.radius
-        ray = np.array([[[rotor.blade.root_cutout * radius, 0.0, 0.0], [(1.0 - _RING) * radius, 0.0, 0.0]]])
+        ray = np.array(
+            [[[rotor.blade.root_cutout * radius, 0.0, 0.0], [(1.0 - _RING) * radius, 0.0, 0.0]]]
+        )
         for step, handle in enumerate(self._ray):
-            handle.points = (ray + np.array([0.0, 0.0, (2.0 + step) * LINE_LIFT])).astype(np.float32)
+            handle.points = (ray + np.array([0.0, 0.0, (2.0 + step) * LINE_LIFT])).astype(
+                np.float32
+            )
         _draw_ring(self._ring, rotor, np.array([0.0, 0.0, 3.0 * LINE_LIFT]))
 
 
@@ -104,7 +117,10 @@ def _cased(api: viser.SceneApi, name: str, pixels: float, casing: float) -> Case
     some = circle_segments(0.1, 8).astype(np.float32)
     under, over = (
         api.add_line_segments(name + end, some, colour, thickness=width, thickness_units="screen")
-        for end, colour, width in (("_casing", colours.CASING_DARK, casing), ("", colours.CASING_LIGHT, pixels))
+        for end, colour, width in (
+            ("_casing", colours.CASING_DARK, casing),
+            ("", colours.CASING_LIGHT, pixels),
+        )
     )
     return under, over
 
@@ -126,7 +142,9 @@ def _on_upper_side(rotor: Rotor, probe: Probe, pitch: float) -> Array:
 class RideAlong:
     """The page moves camera, rotor and arrows by itself; a new answer during the turn changes what it reads."""
 
-    def __init__(self, context: TabContext, scene: SceneController, playing: Callable[[], bool]) -> None:
+    def __init__(
+        self, context: TabContext, scene: SceneController, playing: Callable[[], bool]
+    ) -> None:
         """`playing`: whether the rotor turns by itself."""
         self._context, self._scene, self._playing = context, scene, playing
         self._at: tuple[float, float] | None = None
@@ -158,7 +176,12 @@ class RideAlong:
 LONGEST = 600.0
 """Play ends after this time [s]: a page that was forgotten may fall asleep."""
 _R_STEP, _PSI_STEP = 0.01, 1.0
-_STEPS = {"out": (_R_STEP, 0.0), "in": (-_R_STEP, 0.0), "on": (0.0, _PSI_STEP), "back": (0.0, -_PSI_STEP)}
+_STEPS = {
+    "out": (_R_STEP, 0.0),
+    "in": (-_R_STEP, 0.0),
+    "on": (0.0, _PSI_STEP),
+    "back": (0.0, -_PSI_STEP),
+}
 
 
 @dataclass(frozen=True)
@@ -190,11 +213,15 @@ class ProbePanel:
         """How long it may play on [s]."""
         gui = client.gui
         self._r = gui.add_slider("Radius r/R", 0.5, 1.0, _R_STEP, 0.75, hint=hint("probe_r"))
-        self._psi = gui.add_slider("Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi"))
+        self._psi = gui.add_slider(
+            "Azimuth ψ [°]", 0.0, 360.0, _PSI_STEP, 60.0, hint=hint("probe_psi")
+        )
         self._panel = gui.add_html("")
         self._comparison: tuple[Solution, float, AirloadComparison | None] | None = None
         """A solution and r/R, and what was measured there."""
-        self._follow = gui.add_checkbox("Follow the reference blade", True, hint=hint("probe_follow"))
+        self._follow = gui.add_checkbox(
+            "Follow the reference blade", True, hint=hint("probe_follow")
+        )
         self._shown = gui.add_checkbox("Show on the disk", False, hint=hint("probe_shown"))
         self._opened = gui.add_checkbox("Enlarge angles", False, hint=hint("probe_opened"))
         by_hand(self._psi, self._psi_moved)
@@ -224,7 +251,9 @@ class ProbePanel:
         solution = state.solution
         self._ride.show(solution)
         # The first step of r/R on the blade.
-        self._r.min = round(_R_STEP * math.ceil(solution.design.rotor.blade.root_cutout / _R_STEP - 1e-9), 2)
+        self._r.min = round(
+            _R_STEP * math.ceil(solution.design.rotor.blade.root_cutout / _R_STEP - 1e-9), 2
+        )
         place = self._place()
         if not place.shown and self._context.layout.drawer != "probe":
             if self._drawn is not None:
@@ -234,7 +263,8 @@ class ProbePanel:
         r = min(max(place.r, self._r.min), 1.0)
         here = probe(solution, r, math.radians(place.psi_deg))
         at_blade = (
-            self._follow.value or abs(math.remainder(place.psi_deg - state.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
+            self._follow.value
+            or abs(math.remainder(place.psi_deg - state.view.azimuth_deg, 360.0)) < 0.5 * _PSI_STEP
         )
         pitch = _drawn_pitch(state, here) if at_blade else None
         if self._drawn == (solution, place, pitch):
@@ -318,7 +348,9 @@ class ProbePanel:
             self._context.display.turn(self._walked)
 
     def _place(self) -> _ProbePoint:
-        return _ProbePoint(self._r.value, self._psi.value, self._shown.value and self.seen, self._opened.value)
+        return _ProbePoint(
+            self._r.value, self._psi.value, self._shown.value and self.seen, self._opened.value
+        )
 
     def _set(self, r: float, psi_deg: float | None = None) -> None:
         """Move the probe, and with it the reference blade where they are tied; without ψ only along the blade."""
@@ -352,7 +384,9 @@ class ProbePanel:
         if state is None or not self.seen:
             return
         origin = np.array(event.ray_origin) - self._scene.scene.rotor.frame.position
-        on_blade = pick_blade(state.solution, self._context.display.view, origin, event.ray_direction)
+        on_blade = pick_blade(
+            state.solution, self._context.display.view, origin, event.ray_direction
+        )
         picked = on_blade or pick(state.solution, origin, event.ray_direction)
         if picked is not None:
             self._set(picked[0], picked[1] if on_blade else round(math.degrees(picked[1])) % 360)

@@ -68,7 +68,11 @@ class TwistCurveEditor:
     def held(self) -> HeldStation | None:
         """The station in the hand; None while none is."""
         before = None if self._before is None else self._before[1]
-        return None if self._grab is None else HeldStation(self._place, self._least(self._grab), before)
+        return (
+            None
+            if self._grab is None
+            else HeldStation(self._place, self._least(self._grab), before)
+        )
 
     @property
     def before(self) -> Solution | None:
@@ -89,7 +93,8 @@ class TwistCurveEditor:
         places = stations(grab.inputs)
         before, response = self._response(grab)
         ends = sorted(
-            (before + response * turn, slider(name, SI).label) for turn, name in turn_ends(grab.inputs, grab.station)
+            (before + response * turn, slider(name, SI).label)
+            for turn, name in turn_ends(grab.inputs, grab.station)
         )
         self._context.bridge.set(
             twisting=TwistingPart(
@@ -110,7 +115,9 @@ class TwistCurveEditor:
         turn, slope = self._grab.turn_to(inputs), self._grab.power_slope(by_input)
         if turn is not None:
             self._best = (
-                self._best.with_power(turn, power) if slope is None else self._best.with_turn(turn, power, slope)
+                self._best.with_power(turn, power)
+                if slope is None
+                else self._best.with_turn(turn, power, slope)
             )
 
     def _least(self, grab: StationDrag) -> LeastPower | None:
@@ -130,7 +137,9 @@ class TwistCurveEditor:
         name, change = press.name, press.change
         if change == "start":
             start = grabbed_inputs(self._context.inputs())
-            station = next((station for station in stations(start) if str(station.index) == name), None)
+            station = next(
+                (station for station in stations(start) if str(station.index) == name), None
+            )
             if station is not None and not self._context.held:
                 self._begin(StationDrag(start, station))
         elif change in ("end", "undo"):
@@ -175,7 +184,10 @@ class TwistCurveEditor:
         """
         at, (_, (highest, _)) = np.array([grab.station.r]), turn_ends(grab.inputs, grab.station)
         turn = 1.0 if highest >= 1.0 else -1.0  # Away from the end of its slider.
-        before, after = (float(shown_twist(inputs.design())(at)[0]) for inputs in (grab.inputs, grab.turned(turn)))
+        before, after = (
+            float(shown_twist(inputs.design())(at)[0])
+            for inputs in (grab.inputs, grab.turned(turn))
+        )
         return before, (after - before) / turn if abs(after - before) > _LEAST_RESPONSE else 1.0
 
     def show(self, state: SessionState) -> None:
@@ -187,22 +199,38 @@ class TwistCurveEditor:
         seen = np.concatenate((angles, other, *(flown or ())))
         axis = self._axis(float(seen.min()), float(seen.max()))
         compared: Role = "reference" if state.pinned is None else "pinned"
-        parts: list[Series] = [role_line(compared, r, other), role_line("this", r, angles, label="jig")]
+        parts: list[Series] = [
+            role_line(compared, r, other),
+            role_line("this", r, angles, label="jig"),
+        ]
         if flown is not None:
             mean, low, high = flown
-            parts = [Band("", r, low, high, FLOWN), parts[0], role_line("flown", r, mean, label="flown"), parts[1]]
+            parts = [
+                Band("", r, low, high, FLOWN),
+                parts[0],
+                role_line("flown", r, mean, label="flown"),
+                parts[1],
+            ]
         along = Axis("r/R", (0.1, 1.03), (0.1, 1.0), ("root", "tip"))
         chart = Chart("Twist", along, Axis(range=axis, unit="°"), tuple(parts))
         twist = shown_twist(design)
         movable = stations(state.inputs) if design.twist == state.inputs.design().twist else ()
-        handles = [Knot(str(k.index), k.title, k.r, round(float(twist(np.array([k.r]))[0]), 2)) for k in movable]
+        handles = [
+            Knot(str(k.index), k.title, k.r, round(float(twist(np.array([k.r]))[0]), 2))
+            for k in movable
+        ]
         places = RoleLines(this=len(parts) - 1, reference=1 if flown is not None else 0)
         self._context.bridge.set(twist=TwistPart(drawn_chart(chart), handles, places))
 
     def _axis(self, low: float, high: float) -> tuple[float, float]:
         """Room for what is shown; held while it fits and is not far too large."""
         held, span = self._range, max(high - low, _LEAST_SPAN)
-        if held is not None and held[0] <= low - 0.5 and high + 0.5 <= held[1] and held[1] - held[0] < 2.2 * span:
+        if (
+            held is not None
+            and held[0] <= low - 0.5
+            and high + 0.5 <= held[1]
+            and held[1] - held[0] < 2.2 * span
+        ):
             return held
         middle, half = 0.5 * (low + high), max(0.5 * (high - low) + 2.0, 0.5 * _LEAST_SPAN)
         self._range = (float(math.floor(middle - half)), float(math.ceil(middle + half)))
@@ -215,7 +243,11 @@ def flown_band(solution: Solution, r: Array) -> tuple[Array, Array, Array] | Non
     Relative to the jig twist at 0.75 R, as the jig curve, so that the two are apart by active and elastic twist.
     """
     disk, design = solution.disk, solution.design
-    active = None if design.active_twist is None or design.hovering else design.active_twist(disk.r, disk.psi)
+    active = (
+        None
+        if design.active_twist is None or design.hovering
+        else design.active_twist(disk.r, disk.psi)
+    )
     added = [twist for twist in (disk.elastic_twist, active) if twist is not None]
     if not added:
         return None

@@ -28,7 +28,9 @@ _BRAND = (37, 99, 235)
 
 
 def theme(client: viser.ClientHandle, dark: bool) -> None:
-    client.gui.configure_theme(dark_mode=dark, show_logo=False, show_share_button=False, brand_color=_BRAND)
+    client.gui.configure_theme(
+        dark_mode=dark, show_logo=False, show_share_button=False, brand_color=_BRAND
+    )
 
 
 _TIMES = {f"×{times:g}": times for times in (1.0, 2.0, 4.0)}
@@ -40,7 +42,9 @@ class SettingsPanel:
         self._context, gui, bind = context, context.gui, context.keyboard.bind
         view = context.display.view
         self._themed = view.dark
-        self._units = gui.add_dropdown("Units", tuple(UNITS), initial_value=view.units, hint=hint("units"))
+        self._units = gui.add_dropdown(
+            "Units", tuple(UNITS), initial_value=view.units, hint=hint("units")
+        )
         self._dark = gui.add_checkbox("Dark page", view.dark, hint=hint("dark"))
         self._big = gui.add_checkbox("Big type", False, hint=hint("big_type"))
         self._times = gui.add_dropdown("Drawn twist", tuple(_TIMES), hint=hint("times"))
@@ -72,7 +76,9 @@ class SettingsPanel:
     def _step_field(self, step: int) -> None:
         """The next quantity that there is, or the one before."""
         state, shown = self._context.state(), self._context.display.view.field
-        titles = [t for t in FIELDS if state is None or t == shown or FIELDS[t].exists(state.solution)]
+        titles = [
+            t for t in FIELDS if state is None or t == shown or FIELDS[t].exists(state.solution)
+        ]
         self._change(field=_after(tuple(titles), shown, step))
 
     def _enlarge(self) -> None:
@@ -93,11 +99,22 @@ _MISSING: dict[Drawn, str] = {
     "none": "No 3D: this browser has no WebGL. Switch on hardware acceleration, or use another browser.",
     "lost": "The browser has lost the 3D view. It returns on its own, or when you reload the page.",
 }
-_COMMANDS: dict[str, View] = {"view_3d": "3d", "view_top": "top", "view_blade": "blade", "view_side": "side"}
+_COMMANDS: dict[str, View] = {
+    "view_3d": "3d",
+    "view_top": "top",
+    "view_blade": "blade",
+    "view_side": "side",
+}
 
 
 class SceneViews:
-    def __init__(self, context: TabContext, scene: SceneController, probe: ProbePanel, actuator: ActuatorPanel) -> None:
+    def __init__(
+        self,
+        context: TabContext,
+        scene: SceneController,
+        probe: ProbePanel,
+        actuator: ActuatorPanel,
+    ) -> None:
         self._context, self._scene, self.probe, self._actuator = context, scene, probe, actuator
         self._view: View = "3d"
         self._missing = ""
@@ -136,7 +153,12 @@ class SceneViews:
         """What is on screen, searches apart: the design is the user's own."""
         context, hand = self._context, self._actuator.hand()
         return ScreenState(
-            context.inputs(), context.display.view, context.pinboard.inputs, context.layout.mode, self.now, hand
+            context.inputs(),
+            context.display.view,
+            context.pinboard.inputs,
+            context.layout.mode,
+            self.now,
+            hand,
         )
 
     def put(self, wanted: ScreenState) -> None:
@@ -193,7 +215,9 @@ class SceneViews:
             return  # It stands there already, with its values.
         self._planned = wanted if at_rest else None
         compared = pinned or before
-        content = plan(solution, view, field, colour_range, at_rest, None if compared is solution else compared)
+        content = plan(
+            solution, view, field, colour_range, at_rest, None if compared is solution else compared
+        )
         held = None if before is None else "before" if pinned is None else "A"
         self._context.bridge.set(plan=replace(content, held=held))
 

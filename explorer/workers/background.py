@@ -14,12 +14,23 @@ from typing import Any, Literal
 
 from explorer.workers.call import Call
 from explorer.workers.newest_wins import UPDATES
-from rotor.support.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted, Processes
+from rotor.support.processes import (
+    Job,
+    JobEnded,
+    JobEvent,
+    JobFailed,
+    JobProgress,
+    JobQueued,
+    JobStarted,
+    Processes,
+)
 from rotor.support.worker_process import Task
 
 FRAME = 0.1
 """Between two progress reports that wake the page [s]; the end always does."""
-WorkState = Literal["starting", "waiting", "running", "stopping", "done", "stopped", "late", "broken"]
+WorkState = Literal[
+    "starting", "waiting", "running", "stopping", "done", "stopped", "late", "broken"
+]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +55,9 @@ class WorkRecord:
             case "starting":
                 return "Starting a worker …"
             case "waiting":
-                return "Waiting: next in line" if self.ahead == 0 else f"Waiting: {self.ahead} ahead"
+                return (
+                    "Waiting: next in line" if self.ahead == 0 else f"Waiting: {self.ahead} ahead"
+                )
             case "running":
                 return running
             case "stopping":
@@ -67,7 +80,9 @@ class WorkRecord:
             case JobProgress(item):
                 return replace(self, reports=(*self.reports, item))
             case JobEnded(result, stopped, late):
-                return replace(self, state="late" if late else "stopped" if stopped else "done", result=result)
+                return replace(
+                    self, state="late" if late else "stopped" if stopped else "done", result=result
+                )
             case JobFailed(message):
                 return replace(self, state="broken", sentence=message)
 
@@ -87,7 +102,9 @@ class LongWork:
         """None before the first of this name."""
         return self._records.get(name)
 
-    def begin(self, name: str, task: Task, limit: float, urgency: int = 0, *, restarts: bool = False) -> None:
+    def begin(
+        self, name: str, task: Task, limit: float, urgency: int = 0, *, restarts: bool = False
+    ) -> None:
         """Begin, and end what has this name; where that is under way, only if it `restarts`. `limit`: of its time [s].
 
         `urgency`: as in `Processes.begin`.
@@ -216,7 +233,10 @@ class PoolAnswers:
         self._timer = None
 
     def _next(self) -> Call | None:
-        return next((task for known in (None, _LATE) for task in self._tasks if self.answer(task) is known), None)
+        return next(
+            (task for known in (None, _LATE) for task in self._tasks if self.answer(task) is known),
+            None,
+        )
 
     def _next_one(self) -> None:
         with self._lock:
@@ -227,7 +247,9 @@ class PoolAnswers:
             if self._urgency >= _GIVES_WAY and UPDATES.busy:
                 self._next_after(_LOOKS_AGAIN_S)
             else:
-                self._job = self._pool.begin(task, partial(self._keep, task), limit=_LIMIT, urgency=self._urgency)
+                self._job = self._pool.begin(
+                    task, partial(self._keep, task), limit=_LIMIT, urgency=self._urgency
+                )
 
     def _keep(self, task: Call, news: JobEvent) -> None:
         match news:

@@ -108,7 +108,10 @@ class UpdatePool:
                     worker, is_step = self._frames.popleft(), False
                     self._frames_in_a_row += 1
                 elif wait <= 0.0:
-                    worker, is_step = heapq.heappop(self._steps if due <= 0.0 else self._giving_way)[2], True
+                    worker, is_step = (
+                        heapq.heappop(self._steps if due <= 0.0 else self._giving_way)[2],
+                        True,
+                    )
                     self._frames_in_a_row, self._step_runs = 0, True
                 else:
                     woken = self.change.wait(min(wait, _IDLE_S))
@@ -128,7 +131,11 @@ class NewestWins:
     """Runs `update` once after every `wake`; one further run answers all wakes that come while it runs."""
 
     def __init__(
-        self, update: Update, on_error: Callable[[Exception], None], pool: UpdatePool = UPDATES, held: bool = False
+        self,
+        update: Update,
+        on_error: Callable[[Exception], None],
+        pool: UpdatePool = UPDATES,
+        held: bool = False,
     ) -> None:
         """held: as after `hold`."""
         self._update, self._on_error, self._pool = update, on_error, pool
@@ -213,7 +220,12 @@ class NewestWins:
 
     def waits(self, ticket: int) -> bool:
         """Whether the step of this ticket is still to be done."""
-        return self._state == "step" and self._ticket == ticket and not self._stopped and not self._held
+        return (
+            self._state == "step"
+            and self._ticket == ticket
+            and not self._stopped
+            and not self._held
+        )
 
     def begin(self) -> bool:
         """A thread takes it; False when it is held or has stopped. The caller holds the pool's `change`."""
@@ -257,7 +269,10 @@ class NewestWins:
             self._state, self._ticket = "step", self._pool.queue(self, None, self._gave_way)
             self._gave_way = self._gave_way or self._ticket
         elif self._steps is not None:
-            self._state, self._ticket = "step", self._pool.queue(self, time.monotonic() + self._pause)
+            self._state, self._ticket = (
+                "step",
+                self._pool.queue(self, time.monotonic() + self._pause),
+            )
 
     def _line_up_for_frame(self) -> None:
         """Frames of a page whose trims take long are steps: only one of these is computed at a time."""

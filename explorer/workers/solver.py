@@ -12,7 +12,16 @@ from typing import Any
 
 from rotor import Design, Optimum, Solution, doubt, hub_loads, make_design, solve
 from rotor.design.quantities import PRESETS
-from rotor.optimisation import Concept, Objective, Schedule, SchedulePlan, Search, at_condition, run_plan, run_search
+from rotor.optimisation import (
+    Concept,
+    Objective,
+    Schedule,
+    SchedulePlan,
+    Search,
+    at_condition,
+    run_plan,
+    run_search,
+)
 from rotor.optimisation.descent import descend_together
 from rotor.optimisation.doubt import saving_doubt
 from rotor.optimisation.evaluator import Evaluator, TrimHistory
@@ -68,7 +77,11 @@ class BaselineCache:
         if self.solution is None or design != self.design or (self.rough and not moving):
             start = self.solution if self.solution and self.solution.converged else None
             for options in tries(moving):
-                self.solution, self.design, self.rough = self.by(design, start, options), design, options is FEW_DIGITS
+                self.solution, self.design, self.rough = (
+                    self.by(design, start, options),
+                    design,
+                    options is FEW_DIGITS,
+                )
                 if self.solution.converged:
                     break
             assert self.solution is not None
@@ -142,23 +155,45 @@ class MapTask:
                     return False
                 # From the nearest point that is known, whose least is near, and from across the range: there are
                 # valleys side by side.
-                near = [min(known, key=lambda at, c=cell: math.dist(at, c), default=None) for cell in cells]
+                near = [
+                    min(known, key=lambda at, c=cell: math.dist(at, c), default=None)
+                    for cell in cells
+                ]
                 places = [(column / finest, row / finest) for row, column in cells]
                 nearby = [self.values if at is None else known[at][1] for at in near]
-                begun = [self.place(*place, values) for place, values in zip(places, nearby, strict=True)]
-                found, several = self._least(begun, history, self.axes), len(self.values) > len(self.axes)
-                across = self._least(map(self._across, begun), history, self.axes) if several else found
+                begun = [
+                    self.place(*place, values) for place, values in zip(places, nearby, strict=True)
+                ]
+                found, several = (
+                    self._least(begun, history, self.axes),
+                    len(self.values) > len(self.axes),
+                )
+                across = (
+                    self._least(map(self._across, begun), history, self.axes) if several else found
+                )
                 known.update(zip(cells, map(_lower, found, across), strict=True))
                 tell(len(known) / (finest + 1) ** 2)
             grid = [[known[row, column] for column in every] for row in every]
             powers = tuple(tuple(power for power, _ in cells) for cells in grid)
             power, values = reduce(_lower, known.values())
-            least = (power, values) if power is None else self._least([values], history, (), 0.02 * _UNSEEN)[0]
-            tell(MapLevel(powers, tuple(tuple(values for _, values in cells) for cells in grid), least))
+            least = (
+                (power, values)
+                if power is None
+                else self._least([values], history, (), 0.02 * _UNSEEN)[0]
+            )
+            tell(
+                MapLevel(
+                    powers, tuple(tuple(values for _, values in cells) for cells in grid), least
+                )
+            )
         return True
 
     def _least(
-        self, starts: Iterable[tuple[float, ...]], history: TrimHistory, held: Sequence[int], unseen: float = _UNSEEN
+        self,
+        starts: Iterable[tuple[float, ...]],
+        history: TrimHistory,
+        held: Sequence[int],
+        unseen: float = _UNSEEN,
     ) -> list[Lowest]:
         """Least power near each start, with these parameters as given, to a fall by `unseen`, a part of it."""
         if not (begun := list(starts)):
@@ -168,8 +203,13 @@ class MapTask:
         for values in begun:
             fixed = {self.concept.parameters[k].name: values[k] for k in held}
             concept = replace(self.concept, fixed=(*self.concept.fixed, *fixed.items()))
-            searches.append(Evaluator(self.design, concept, self.objective, Limits(), 0, None, None, history))
-        scaled = [one.scaled([values[k] for k in free]) for one, values in zip(searches, begun, strict=True)]
+            searches.append(
+                Evaluator(self.design, concept, self.objective, Limits(), 0, None, None, history)
+            )
+        scaled = [
+            one.scaled([values[k] for k in free])
+            for one, values in zip(searches, begun, strict=True)
+        ]
         ends = descend_together(searches, scaled, unseen)
         found: list[Lowest] = []
         for one, end, values in zip(searches, ends, begun, strict=True):
@@ -182,7 +222,9 @@ class MapTask:
     def _across(self, values: Sequence[float]) -> tuple[float, ...]:
         """Each parameter but those of the axes as far from the other end of its range."""
         every = enumerate(zip(self.concept.parameters, values, strict=True))
-        return tuple(value if k in self.axes else one.low + one.high - value for k, (one, value) in every)
+        return tuple(
+            value if k in self.axes else one.low + one.high - value for k, (one, value) in every
+        )
 
     def place(self, x: float, y: float, values: Sequence[float]) -> tuple[float, ...]:
         """The parameters at a point of the map, 0…1 along each axis, with the others of `values`."""

@@ -19,7 +19,12 @@ from rotor.actuator.catalogue import (
 )
 from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
 from rotor.actuator.harmonic import EffectInFlight, effect, harmonic_share, powers, tip_amplitude
-from rotor.actuator.installation import InstalledActuator, install, with_actuator, with_actuator_mass
+from rotor.actuator.installation import (
+    InstalledActuator,
+    install,
+    with_actuator,
+    with_actuator_mass,
+)
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, OtherStroke, break_even, other_stroke, pay_sentence
 from rotor.actuator.section import HostBlade, Placement, default_placement

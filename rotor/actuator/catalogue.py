@@ -14,12 +14,22 @@ from rotor.design.aircraft import Aircraft
 from rotor.support.assets import toml_asset
 from rotor.support.user_input import check_known
 
-STEPS = ("numerical studies", "small-scale tests", "full-scale wind tunnel", "demonstrator", "production")
+STEPS = (
+    "numerical studies",
+    "small-scale tests",
+    "full-scale wind tunnel",
+    "demonstrator",
+    "production",
+)
 """Steps of development, from 1. Source: Burke & Gatto, Review of Rotary-Wing Morphing Actuation Systems,
 Aerospace 13(3) 297, 2026."""
 
 
-KINDS: dict[str, type[Actuator]] = {"ply": PiezoPly, "tube": TorqueTube, "extension_twist": ExtensionTwist}
+KINDS: dict[str, type[Actuator]] = {
+    "ply": PiezoPly,
+    "tube": TorqueTube,
+    "extension_twist": ExtensionTwist,
+}
 """By their tables in the data file."""
 K = TypeVar("K", bound=Actuator)
 
@@ -42,7 +52,9 @@ def _shared(row: dict[str, Any]) -> dict[str, Any]:
 @cache
 def actuators() -> dict[str, Actuator]:
     """All actuators by id, in the order of the kinds."""
-    return {id: actuator for kind in KINDS.values() for id, actuator in actuators_of_kind(kind).items()}
+    return {
+        id: actuator for kind in KINDS.values() for id, actuator in actuators_of_kind(kind).items()
+    }
 
 
 def find_actuator(id: str) -> Actuator:
@@ -106,7 +118,9 @@ def fuel_caveats(aircraft: Aircraft) -> tuple[str, ...]:
     """A sentence on what is unknown about the aircraft's fuel flow."""
     engines = engines_of(aircraft)
     if engines is None:
-        return (f"The fuel flow of the {aircraft.name} engines has no source, so savings are given as power only.",)
+        return (
+            f"The fuel flow of the {aircraft.name} engines has no source, so savings are given as power only.",
+        )
     return (f"Fuel: {engines.caveat} ({engines.source}).",) if engines.caveat else ()
 
 

@@ -25,7 +25,9 @@ class FlightLeg:
 
     def of(self, design: Design) -> Design:
         """The design in the flight condition of this leg."""
-        condition = replace(design.condition, advance_ratio=self.advance_ratio, climb_speed=self.climb_speed)
+        condition = replace(
+            design.condition, advance_ratio=self.advance_ratio, climb_speed=self.climb_speed
+        )
         return replace(design, condition=condition)
 
 
@@ -34,7 +36,9 @@ def standard_flight(design: Design) -> tuple[FlightLeg, ...]:
 
     Level in place of the climb where the models of the design know no axial flow.
     """
-    climb = FlightLeg("climb", 0.15, 5.0) if design.models.disk_axial_flow else FlightLeg("slow", 0.15)
+    climb = (
+        FlightLeg("climb", 0.15, 5.0) if design.models.disk_axial_flow else FlightLeg("slow", 0.15)
+    )
     return (FlightLeg("hover", 0.0), climb, FlightLeg("cruise", 0.25), FlightLeg("fast", 0.33))
 
 

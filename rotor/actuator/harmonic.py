@@ -42,7 +42,9 @@ def harmonic_share(installed: InstalledActuator, volts: Sequence[float]) -> floa
 
 def bending(design: Design) -> Design:
     """The design with blades that bend where they can, since vibration needs it, and without pitch at n/rev."""
-    return replace(design, pitch_per_rev=(), models=replace(design.models, bending=can_bend(design.rotor)))
+    return replace(
+        design, pitch_per_rev=(), models=replace(design.models, bending=can_bend(design.rotor))
+    )
 
 
 @dataclass(frozen=True)
@@ -68,13 +70,18 @@ def effect(design: Design, reference: Design) -> EffectInFlight:
     power, index = list[float](), list[float]()
     shaken = why_no_hub_loads(bending(design)) is None
     for inflow in dict.fromkeys((design.models.inflow, *band_inflows())):
-        pair = [replace(one, models=replace(design.models, inflow=inflow)) for one in (design, reference)]
+        pair = [
+            replace(one, models=replace(design.models, inflow=inflow))
+            for one in (design, reference)
+        ]
         trims = [analyse(one) for one in pair]
         if inflow == design.models.inflow:
             for trim in trims:
                 trim.solution.require()
         if all(trim.solution.converged for trim in trims):
-            here, there = (trim.solution.power.total + pitching_power(trim.solution) for trim in trims)
+            here, there = (
+                trim.solution.power.total + pitching_power(trim.solution) for trim in trims
+            )
             power.append(here - there)
         bent = trims if design.models.bending else [analyse(bending(one)) for one in pair if shaken]
         if shaken and all(trim.solution.converged for trim in bent):

@@ -50,24 +50,29 @@ def addition(
 
 @bytes_cache
 @read_only
-def install(actuator: Actuator, placement: Placement, host: HostBlade, rotor: Rotor) -> InstalledActuator:
+def install(
+    actuator: Actuator, placement: Placement, host: HostBlade, rotor: Rotor
+) -> InstalledActuator:
     """Install an actuator on the blade of a rotor. ValueError for a blade that cannot be built."""
     structure = uh60a_structure(rotor.radius)
     spec = section_spec(structure, host)
     if "span" not in actuator.settings:
         placement = replace(placement, divisions=())
     lines = (skin(spec, side, *placement.chord) for side in ("upper", "lower"))
-    covered = sum(float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in lines)  # Arc length under the plies [m].
+    # Arc length under the plies [m].
+    covered = sum(float(np.hypot(*np.diff(line, axis=0).T).sum()) for line in lines)
     lengths = np.array([(high - low) * structure.radius for low, high in placement.segments])
     areas = covered * lengths
     masses = actuator.masses(placement, rotor.blades, float(areas.sum()), float(lengths.sum()))
     stiffness, moment = actuator.section(spec, placement)
     added = addition(masses, placement, structure, stiffness - spec.stiffness)
     beam, still = (
-        torsion_beam(structure, speed, scale=host.stiffness, addition=added) for speed in (rotor.angular_speed, 0.0)
+        torsion_beam(structure, speed, scale=host.stiffness, addition=added)
+        for speed in (rotor.angular_speed, 0.0)
     )
     units, rest_units = (
-        np.stack([_segment_shape(body, structure, span, 1.0) for span in placement.segments]) for body in (beam, still)
+        np.stack([_segment_shape(body, structure, span, 1.0) for span in placement.segments])
+        for body in (beam, still)
     )
     moments = actuator.moments(moment, units[:, -1], lengths, placement)
     moment = float(moments.max())
@@ -90,33 +95,47 @@ def install(actuator: Actuator, placement: Placement, host: HostBlade, rotor: Ro
     )
 
 
-def _segment_shape(beam: TorsionBeam, structure: BendingStructure, span: tuple[float, float], moment: float) -> Array:
+def _segment_shape(
+    beam: TorsionBeam, structure: BendingStructure, span: tuple[float, float], moment: float
+) -> Array:
     low, high = (structure.radius * end for end in span)
     edges = np.clip(beam.r, low, high)
     share = np.diff(edges) / np.diff(beam.r)  # Part of each element that is active.
     return twist_under_moment(beam, share * moment)
 
 
-def with_actuator_mass(design: Design, installed: InstalledActuator, carried: Carried | None = None) -> Design:
+def with_actuator_mass(
+    design: Design, installed: InstalledActuator, carried: Carried | None = None
+) -> Design:
     """The design with the actuator's mass in the aircraft and on the blades, and an elastic blade's new stiffness.
 
     carried: what the design says of it; None: that it is there, without a drive.
     """
     if design.rotor.blade.carried is not None:
-        raise ValueError(f"the blades carry {design.rotor.blade.carried.name} already: give a design without actuator")
+        raise ValueError(
+            f"the blades carry {design.rotor.blade.carried.name} already: give a design without actuator"
+        )
     carried = carried or _carried(installed, (), False, installed.actuator.id.replace("_", " "))
     condition = replace(design.condition, mass=design.condition.mass + carried.aircraft_kg)
-    return replace(design, rotor=carrying(design.rotor, carried, elastic=design.elastic), condition=condition)
+    return replace(
+        design, rotor=carrying(design.rotor, carried, elastic=design.elastic), condition=condition
+    )
 
 
 def drive_name(installed: InstalledActuator, shares: Sequence[float]) -> str:
     """`MFC P1 at 1 155 V`; where segments differ, from the least to the most."""
     drives = [installed.actuator.driven_at(share) for share in shares]
-    ends = "…".join(f"{end:,.0f}".replace(",", "\u2009") for end in sorted({min(drives), max(drives)}))
-    return f"{installed.actuator.id.replace('_', ' ')} at {ends} {installed.actuator.drive_unit}".replace("-", "−")
+    ends = "…".join(
+        f"{end:,.0f}".replace(",", "\u2009") for end in sorted({min(drives), max(drives)})
+    )
+    return f"{installed.actuator.id.replace('_', ' ')} at {ends} {installed.actuator.drive_unit}".replace(
+        "-", "−"
+    )
 
 
-def carrying_driven(design: Design, installed: InstalledActuator, shares: Sequence[float], *, crossed: bool) -> Design:
+def carrying_driven(
+    design: Design, installed: InstalledActuator, shares: Sequence[float], *, crossed: bool
+) -> Design:
     """The design with an actuator on its blades: mass, stiffness, and the twist of its drive.
 
     shares: drive of each segment, −1…1 of either side. crossed: fibres laid the other way.
@@ -126,7 +145,9 @@ def carrying_driven(design: Design, installed: InstalledActuator, shares: Sequen
         actuator = installed.actuator
         sign = -1.0 if crossed and "crossed" in actuator.settings else 1.0
         steady = [sign * actuator.swing_at(share) for share in shares] @ installed.shapes_in(design)
-        design = replace(design, twist=twisted(design.twist, np.interp(STATIONS, installed.r, steady), name))
+        design = replace(
+            design, twist=twisted(design.twist, np.interp(STATIONS, installed.r, steady), name)
+        )
     return with_actuator_mass(design, installed, _carried(installed, shares, crossed, name))
 
 
@@ -151,8 +172,12 @@ def with_actuator(design: Design, actuator: str) -> Design:
     count = len(installed.shapes)
     drives = one.drives * count if len(one.drives) < 2 else one.drives
     if len(drives) != count:
-        raise ValueError(f"{len(drives)} drives do not fit {count} segments: give one, or one for each segment")
-    return carrying_driven(design, installed, [0.01 * drive for drive in drives], crossed=one.crossed)
+        raise ValueError(
+            f"{len(drives)} drives do not fit {count} segments: give one, or one for each segment"
+        )
+    return carrying_driven(
+        design, installed, [0.01 * drive for drive in drives], crossed=one.crossed
+    )
 
 
 @dataclass(frozen=True)
@@ -185,21 +210,35 @@ def read_actuator(text: str) -> ActuatorSpec:
         given[key] = numbers
     plain, gj, drives = default_placement(), given.get("gj"), given.get("drive", (0.0,))
     span, chord = given.get("span", plain.span), given.get("chord", plain.chord)
-    crossed, least = bool(given.get("crossed", (0.0,))[0]), -100.0 if find_actuator(id).drive_range[0] else 0.0
+    crossed, least = (
+        bool(given.get("crossed", (0.0,))[0]),
+        -100.0 if find_actuator(id).drive_range[0] else 0.0,
+    )
     if not least and max(drives) <= 0.0:  # One that turns the tip one way is laid the other way.
         drives, crossed = tuple(-drive for drive in drives), crossed != any(drives)
     if len(span) != 2 or len(chord) != 2 or min(drives) < least or max(drives) > 100.0:
         low = "−100" if least else "0"
-        raise ValueError(f"actuator {text!r:.80}: give span and chord two ends, and drives from {low} to 100 %")
+        raise ValueError(
+            f"actuator {text!r:.80}: give span and chord two ends, and drives from {low} to 100 %"
+        )
     plies = round(given.get("plies", (plain.plies,))[0])
-    placement = Placement((span[0], span[1]), (chord[0], chord[1]), plies, divisions=given.get("divisions", ()))
+    placement = Placement(
+        (span[0], span[1]), (chord[0], chord[1]), plies, divisions=given.get("divisions", ())
+    )
     host = HostBlade() if gj is None else HostBlade("new", gj[0])
     return ActuatorSpec(id, placement, host, drives, crossed)
 
 
-def _carried(installed: InstalledActuator, shares: Sequence[float], crossed: bool, name: str) -> Carried:
+def _carried(
+    installed: InstalledActuator, shares: Sequence[float], crossed: bool, name: str
+) -> Carried:
     """What a design says of the actuator on it."""
-    place, plain, host, added = installed.placement, default_placement(), installed.host, installed.added
+    place, plain, host, added = (
+        installed.placement,
+        default_placement(),
+        installed.host,
+        installed.added,
+    )
     drives = [100.0 * share for share in shares]
     settings: dict[str, Sequence[float]] = {
         "plies": () if place.plies == plain.plies else (place.plies,),
@@ -207,10 +246,18 @@ def _carried(installed: InstalledActuator, shares: Sequence[float], crossed: boo
         "chord": () if place.chord == plain.chord else place.chord,
         "gj": (host.stiffness,) if host.kind == "new" else (),
         "divisions": place.divisions,
-        "drive": drives[:1] if len(set(drives)) == 1 and drives[0] else drives if any(drives) else (),
+        "drive": drives[:1]
+        if len(set(drives)) == 1 and drives[0]
+        else drives
+        if any(drives)
+        else (),
         "crossed": (1.0,) if crossed else (),
     }
-    words = [f"{key}={':'.join(f'{value:.10g}' for value in values)}" for key, values in settings.items() if values]
+    words = [
+        f"{key}={':'.join(f'{value:.10g}' for value in values)}"
+        for key, values in settings.items()
+        if values
+    ]
     return Carried(
         name=name,
         spec=",".join((installed.actuator.id, *words)),
@@ -224,7 +271,9 @@ def _carried(installed: InstalledActuator, shares: Sequence[float], crossed: boo
     )
 
 
-def change_limit(installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304) -> ChangeLimit:
+def change_limit(
+    installed: InstalledActuator, reference: TwistLaw, *, root: float = 0.1304
+) -> ChangeLimit:
     """The actuator's range as a limit on the change of twist in a search; root: r/R where the blade begins.
 
     Each segment's twist is spread over the whole segment, cut-out and tip included, like the laws of the concepts;

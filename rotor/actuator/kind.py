@@ -31,7 +31,10 @@ _UNIT = re.compile(rf"_({'|'.join(_UNITS)})$")
 def in_si(row: Mapping[str, Any]) -> dict[str, Any]:
     """A row of the data file with numbers in SI, by keys without units."""
     ends = {key: _UNITS[unit[1]] if (unit := _UNIT.search(key)) else None for key in row}
-    return {_UNIT.sub("", key): row[key] if unit is None else unit * row[key] for key, unit in ends.items()}
+    return {
+        _UNIT.sub("", key): row[key] if unit is None else unit * row[key]
+        for key, unit in ends.items()
+    }
 
 
 @dataclass(frozen=True)
@@ -54,9 +57,15 @@ class DataProvenance:
 
     def warnings(self, name: str) -> tuple[str, ...]:
         """Caveats of using the numbers, one sentence each."""
-        graded = ("values from memory, to be verified", self.recalled), ("assumed values", self.assumed)
+        graded = (
+            ("values from memory, to be verified", self.recalled),
+            ("assumed values", self.assumed),
+        )
         # Keys of the data file as words, their units left out.
-        listed = ((grade, ", ".join(_UNIT.sub("", key).replace("_", " ") for key in keys)) for grade, keys in graded)
+        listed = (
+            (grade, ", ".join(_UNIT.sub("", key).replace("_", " ") for key in keys))
+            for grade, keys in graded
+        )
         return tuple(f"{name}: {grade}: {keys}." for grade, keys in listed if keys)
 
 
@@ -207,13 +216,17 @@ class Actuator(ABC):
         low, high = (drive / self.drive_swing for drive in self.drive_range)
         return low, high
 
-    def voltages(self, swings: tuple[Swings, ...], host: HostBlade) -> tuple[tuple[float, float], ...]:
+    def voltages(
+        self, swings: tuple[Swings, ...], host: HostBlade
+    ) -> tuple[tuple[float, float], ...]:
         """Voltage of each segment at both conditions [V]; empty where voltage does not drive it."""
         return ()
 
     # On a blade
 
-    def masses(self, placement: Placement, blades: int, skin_area: float, length: float) -> MassBreakdown:
+    def masses(
+        self, placement: Placement, blades: int, skin_area: float, length: float
+    ) -> MassBreakdown:
         """Masses for a `skin_area` [m²] of one layer on both skins of a blade, and a `length` [m] of all segments."""
         return MassBreakdown(blades)
 
@@ -221,7 +234,9 @@ class Actuator(ABC):
         """GJ of the active section [N m²], and the moment that the actuator is driven by in it [N m]."""
         return spec.stiffness, 0.0
 
-    def moments(self, moment: float, compliance: Array, lengths: Array, placement: Placement) -> Array:
+    def moments(
+        self, moment: float, compliance: Array, lengths: Array, placement: Placement
+    ) -> Array:
         """Moment of each segment [N m], whose tip turns by its compliance [rad/(N m)]; `moment`: that of `section`."""
         return np.full(len(lengths), moment)
 
@@ -233,11 +248,15 @@ class Actuator(ABC):
         """Power to hold the twist, and to slew by the swing of each segment."""
         return Drive()
 
-    def harmonic_loss(self, installed: "InstalledActuator", per_rev: float, amplitude: float) -> float:
+    def harmonic_loss(
+        self, installed: "InstalledActuator", per_rev: float, amplitude: float
+    ) -> float:
         """Heat on one blade driven at a harmonic [W]; amplitude: over half the range."""
         return 0.0
 
-    def limits(self, installed: "InstalledActuator", swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
+    def limits(
+        self, installed: "InstalledActuator", swings: Swings, solution: Solution | None
+    ) -> tuple[Limit, ...]:
         """Limits that only this kind has, for the required `swings`, which may exceed 1."""
         return ()
 
@@ -305,7 +324,9 @@ class InstalledActuator:
         if not design.elastic:
             return design
         rotor = design.rotor
-        return replace(design, rotor=replace(rotor, blade=replace(rotor.blade, structure=self.blade)))
+        return replace(
+            design, rotor=replace(rotor, blade=replace(rotor.blade, structure=self.blade))
+        )
 
     def change(self, swings: ArrayLike, r: ArrayLike) -> Array:
         """Twist at r/R for each segment's swing (−1…1 of its whole range) [rad], zero at the pitch bearing."""

@@ -42,7 +42,9 @@ class ExtensionTwist(Actuator):
         shape = shape - shape[0]
         return (self.attainable * shape / shape[-1])[None, :]
 
-    def limits(self, installed: InstalledActuator, swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
+    def limits(
+        self, installed: InstalledActuator, swings: Swings, solution: Solution | None
+    ) -> tuple[Limit, ...]:
         percent = 100.0 * self.speed_change
         sentence = (
             f"Only rotor speed changes the twist: {percent:.0f} % slower for the full change, and this rotor runs at "

@@ -20,8 +20,22 @@ from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 
 ELEMENTS = 60
-BENDING = np.array([[12.0, 6.0, -12.0, 6.0], [6.0, 4.0, -6.0, 2.0], [-12.0, -6.0, 12.0, -6.0], [6.0, 2.0, -6.0, 4.0]])
-TENSION = np.array([[36.0, 3.0, -36.0, 3.0], [3.0, 4.0, -3.0, -1.0], [-36.0, -3.0, 36.0, -3.0], [3.0, -1.0, -3.0, 4.0]])
+BENDING = np.array(
+    [
+        [12.0, 6.0, -12.0, 6.0],
+        [6.0, 4.0, -6.0, 2.0],
+        [-12.0, -6.0, 12.0, -6.0],
+        [6.0, 2.0, -6.0, 4.0],
+    ]
+)
+TENSION = np.array(
+    [
+        [36.0, 3.0, -36.0, 3.0],
+        [3.0, 4.0, -3.0, -1.0],
+        [-36.0, -3.0, 36.0, -3.0],
+        [3.0, -1.0, -3.0, 4.0],
+    ]
+)
 """Stiffness of an element of unit length, of (w, w') at both ends; tension times 30."""
 
 
@@ -32,20 +46,29 @@ def unbalanced_load(solution: Solution, structure: BendingStructure) -> tuple[Ar
     r = rotor.radius * disk.r
     lift = design.thrust_unit / rotor.blades / rotor.radius * disk.dct
     first = controls.flap_1c * np.cos(disk.psi) + controls.flap_1s * np.sin(disk.psi)
-    motion = r[:, None] * (controls.coning + first) - (r - rotor.blade.flap_hinge * rotor.radius)[:, None] * first
-    return r, lift - structure.at(r, structure.mass_per_length)[:, None] * rotor.angular_speed**2 * motion
+    motion = (
+        r[:, None] * (controls.coning + first)
+        - (r - rotor.blade.flap_hinge * rotor.radius)[:, None] * first
+    )
+    return r, lift - structure.at(r, structure.mass_per_length)[
+        :, None
+    ] * rotor.angular_speed**2 * motion
 
 
 def elastic_flap_moment(solution: Solution, structure: BendingStructure, r: Array) -> Array:
     """EI w'' at r [m] over azimuth [N m], (stations, azimuths)."""
     rotor = solution.design.rotor
-    nodes = np.linspace(max(rotor.blade.flap_hinge * rotor.radius, structure.clamp), structure.radius, ELEMENTS + 1)
+    nodes = np.linspace(
+        max(rotor.blade.flap_hinge * rotor.radius, structure.clamp), structure.radius, ELEMENTS + 1
+    )
     radii, load = unbalanced_load(solution, structure)
     at_nodes = interpolate_rows(nodes, radii, load.T, left=0.0).T
     return bending_moments(structure, rotor.angular_speed, nodes, at_nodes, r)
 
 
-def bending_moments(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array, r: Array) -> Array:
+def bending_moments(
+    structure: BendingStructure, angular_speed: float, nodes: Array, load: Array, r: Array
+) -> Array:
     """EI w'' at r [m] under loads per length at even nodes from the hinge, (nodes, cases), (stations, cases) [N m].
 
     From the curvature in the middle of each element, where cubic elements are best.
@@ -53,7 +76,9 @@ def bending_moments(structure: BendingStructure, angular_speed: float, nodes: Ar
     turn = _deflect(structure, angular_speed, nodes, load)[1::2]
     middles = 0.5 * (nodes[1:] + nodes[:-1])
     curvature = np.diff(turn, axis=0) / (nodes[1] - nodes[0])
-    return interpolate_rows(r, middles, (structure.at(middles, structure.flap_stiffness)[:, None] * curvature).T).T
+    return interpolate_rows(
+        r, middles, (structure.at(middles, structure.flap_stiffness)[:, None] * curvature).T
+    ).T
 
 
 def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, load: Array) -> Array:
@@ -68,7 +93,9 @@ def _deflect(structure: BendingStructure, angular_speed: float, nodes: Array, lo
     scale = np.outer(unit, unit)
     for k in range(n - 1):
         place = slice(2 * k, 2 * k + 4)
-        stiffness[place, place] += scale * (bending[k] / h**3 * BENDING + pull[k] / (30.0 * h) * TENSION)
+        stiffness[place, place] += scale * (
+            bending[k] / h**3 * BENDING + pull[k] / (30.0 * h) * TENSION
+        )
         mean = 0.5 * (load[k] + load[k + 1])
         force[place] += np.outer([h / 2.0, h**2 / 12.0, h / 2.0, -(h**2) / 12.0], mean)
     out = np.zeros_like(force)
@@ -105,7 +132,9 @@ class FibreStrain:
         return self.centrifugal + self.flap + self.twist
 
 
-def fibre_strain(installed: InstalledActuator, nu: float, solution: Solution | None = None) -> FibreStrain:
+def fibre_strain(
+    installed: InstalledActuator, nu: float, solution: Solution | None = None
+) -> FibreStrain:
     """ε_f = ½ε_x(1 − ν) + ½γ at 45°, from F_c/EA, M_flap h/EI and the twist's own shear.
 
     At another angle ε_f = ε_x(c² − ν s²) + γ s c, `nu` that of the sheet. Without a solution the flap part is zero. The
@@ -116,7 +145,9 @@ def fibre_strain(installed: InstalledActuator, nu: float, solution: Solution | N
     r = np.linspace(*installed.placement.span, _STATIONS)
     metres = r * rotor_structure.radius
     speed = installed.beam.angular_speed
-    pull = rotor_structure.centrifugal_force(metres, speed) + added_pull(installed.added, metres, speed)
+    pull = rotor_structure.centrifugal_force(metres, speed) + added_pull(
+        installed.added, metres, speed
+    )
     s, c = np.sin(installed.placement.angle), np.cos(installed.placement.angle)
     along = c**2 - nu * s**2
     bending = np.zeros_like(r)
@@ -127,7 +158,9 @@ def fibre_strain(installed: InstalledActuator, nu: float, solution: Solution | N
     # 2A/s of a closed contour is its mean thickness, at most the greatest: on the safe side.
     shear = abs(installed.twist_rate) * 2.0 * HALF_THICKNESS * rotor_structure.chord
     pulled = along * pull / rotor_structure.axial_stiffness
-    return FibreStrain(r=r, centrifugal=pulled, flap=along * bending, twist=np.full_like(r, abs(s * c) * shear))
+    return FibreStrain(
+        r=r, centrifugal=pulled, flap=along * bending, twist=np.full_like(r, abs(s * c) * shear)
+    )
 
 
 def limits(
@@ -148,10 +181,16 @@ def _temperature(installed: InstalledActuator, top: float) -> Limit:
     data = structure_data()["limits"]
     if top <= 85.0:  # Manufacturer's storage limit; the operating limit is lower.
         top = min(top, float(data["running_temperature_c"]))
-    on_heater = installed.placement.chord[0] < float(data["de_ice_end_c"]) and installed.actuator.on_skin
+    on_heater = (
+        installed.placement.chord[0] < float(data["de_ice_end_c"]) and installed.actuator.on_skin
+    )
     hottest = float(data["de_ice_temperature_c"] if on_heater else data["hot_day_c"])
     heater = "over the de-ice heater mat" if on_heater else "off the heater mat, on a hot day"
-    remedy = "" if hottest <= top else f"; start at {data['de_ice_end_c']:g} c or use a high-temperature type"
+    remedy = (
+        ""
+        if hottest <= top
+        else f"; start at {data['de_ice_end_c']:g} c or use a high-temperature type"
+    )
     sentence = f"The skin {heater} reaches about {hottest:.0f} °C; the actuator works up to {top:.0f} °C{remedy}."
     return Limit("temperature", hottest <= top, hottest, top, "°C", sentence)
 
@@ -175,7 +214,10 @@ def _torsion(installed: InstalledActuator) -> list[Limit]:
     near = min((3.0, 4.0), key=lambda harmonic: abs(frequency - harmonic))
     gap = abs(frequency - near)
     first = f"First torsion at {frequency:.2f}/rev"
-    by_gap, by_load = f"{first} is {gap:.2f} from {near:.0f}/rev.", f"{first}; below {least:g}/rev control loads grow."
+    by_gap, by_load = (
+        f"{first} is {gap:.2f} from {near:.0f}/rev.",
+        f"{first}; below {least:g}/rev control loads grow.",
+    )
     return [
         Limit("torsion-resonance", gap >= margin, gap, margin, "per rev", by_gap),
         Limit("torsion-least", frequency >= least, frequency, least, "per rev", by_load),

@@ -53,7 +53,9 @@ class ConditionPair:
                 f"time share {self.share:g} is not between 0 and 1: give the fraction of time in the second condition"
             )
         if self.advance_ratios[0] == self.advance_ratios[1]:
-            raise ValueError(f"both conditions have advance ratio {self.advance_ratios[0]:g}: give two that differ")
+            raise ValueError(
+                f"both conditions have advance ratio {self.advance_ratios[0]:g}: give two that differ"
+            )
 
     @property
     def shares(self) -> tuple[float, float]:
@@ -68,7 +70,8 @@ class ConditionPair:
         """The design at both conditions."""
         base = base or self.design
         first, second = (
-            replace(base, condition=replace(base.condition, advance_ratio=mu)) for mu in self.advance_ratios
+            replace(base, condition=replace(base.condition, advance_ratio=mu))
+            for mu in self.advance_ratios
         )
         return first, second
 
@@ -88,13 +91,20 @@ class TwistOptimum:
 
 
 def best_twist(
-    design: Design, concept: Concept, starts: Starts = (), *, alone: bool = False, known: "_Known | None" = None
+    design: Design,
+    concept: Concept,
+    starts: Starts = (),
+    *,
+    alone: bool = False,
+    known: "_Known | None" = None,
 ) -> TwistOptimum:
     """The concept's twist of least power at one condition; `alone`: search from these starts only."""
     return _search(((design,), (1.0,), ()), concept, None, starts, alone=alone, known=known)
 
 
-def best_fixed(pair: ConditionPair, concept: Concept, *, known: "_Known | None" = None) -> TwistOptimum:
+def best_fixed(
+    pair: ConditionPair, concept: Concept, *, known: "_Known | None" = None
+) -> TwistOptimum:
     """The concept's fixed twist of least mean power."""
     return _search((pair.designs(), pair.shares, ()), concept, None, (), known=known)
 
@@ -112,12 +122,16 @@ def best_actuated(
     return _search((pair.designs(), pair.shares, near), concept, (installed, scale), starts)
 
 
-def best_swings(design: Design, installed: InstalledActuator, bounds: Array, near: Solution) -> TwistOptimum:
+def best_swings(
+    design: Design, installed: InstalledActuator, bounds: Array, near: Solution
+) -> TwistOptimum:
     """Least power at one condition of a blade with fixed built-in twist; bounds of swings (segments, 2); a trim
     nearby. RuntimeError where it does not trim."""
     reached = _Task(((design,), (1.0,), (near,)), None, (installed, 1.0), bounds, {}).descend(())
     if reached is None:
-        raise RuntimeError("The rotor does not trim at this flight condition: reduce the mass or the advance ratio.")
+        raise RuntimeError(
+            "The rotor does not trim at this flight condition: reduce the mass or the advance ratio."
+        )
     return reached
 
 
@@ -144,21 +158,30 @@ def _search(
     if installed is not None and installed.host.kind == "retrofit":
         low, high = installed.actuator.retrofit_swings
         either = ((low, high), (-high, -low)) if driven else (_AT_REST,)  # Direction of fibres.
-        tasks = [_Task(flights, None, fitted, [ends] * 2 * len(installed.shapes), known) for ends in either]
+        tasks = [
+            _Task(flights, None, fitted, [ends] * 2 * len(installed.shapes), known)
+            for ends in either
+        ]
         jigs: list[Sequence[float]] = [()]
     else:
-        segments = len(installed.shapes) if installed else 0  # From the first condition: only differences matter.
+        # From the first condition: only differences matter.
+        segments = len(installed.shapes) if installed else 0
         bounds = [_AT_REST] * segments + [(-1.0, 1.0) if driven else _AT_REST] * segments
         tasks, jigs = [_Task(flights, concept, fitted, bounds, known)], list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, flights[0][0].twist)
             flatter = tuple(
-                v * FLATTENED_SHARE if p.angular else v for v, p in zip(first, concept.parameters, strict=True)
+                v * FLATTENED_SHARE if p.angular else v
+                for v, p in zip(first, concept.parameters, strict=True)
             )
             jigs += [first, flatter]
-    optima = [reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None]
+    optima = [
+        reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None
+    ]
     if not optima:
-        raise RuntimeError("No twist of this concept trims at these conditions: reduce mass or advance ratio.")
+        raise RuntimeError(
+            "No twist of this concept trims at these conditions: reduce mass or advance ratio."
+        )
     return min(optima, key=lambda reached: reached.power)
 
 
@@ -180,7 +203,10 @@ class _Task:
         self.segments, self.shapes = 0, np.zeros((0, len(STATIONS)))
         if fitted:
             installed, scale = fitted
-            self.segments, self.shapes = len(installed.shapes), scale * law_shapes(installed, self.designs[0])
+            self.segments, self.shapes = (
+                len(installed.shapes),
+                scale * law_shapes(installed, self.designs[0]),
+            )
             self.designs = tuple(installed.on(design) for design in self.designs)
         bounds = [(p.low, p.high) for p in concept.parameters] if concept else []
         self.low, high = np.array([*bounds, *swings]).T
@@ -212,7 +238,9 @@ class _Task:
         assert final is not None
         values, each = self._split(x)
         swings = tuple(tuple(row) for row in each.tolist()) if self.segments else ()
-        return TwistOptimum(tuple(values), swings, tuple(trim for trim in self.trims if trim is not None), final[0])
+        return TwistOptimum(
+            tuple(values), swings, tuple(trim for trim in self.trims if trim is not None), final[0]
+        )
 
     def _split(self, x: Array) -> tuple[list[float], Array]:
         """Parameters of the jig twist, and swings, (conditions, segments), of a scaled point."""
@@ -241,7 +269,9 @@ class _Task:
             if self.concept:
                 by_jig += share * by_pitch.along(self.concept.slopes(jig, by_pitch.r))
             if self.segments:
-                by_swings[k] = share * by_pitch.along(interpolate_rows(by_pitch.r, STATIONS, self.shapes))
+                by_swings[k] = share * by_pitch.along(
+                    interpolate_rows(by_pitch.r, STATIONS, self.shapes)
+                )
         return power, slope * self.span
 
 
@@ -256,7 +286,9 @@ def law_shapes(installed: InstalledActuator, design: Design) -> Array:
 def twisted(jig: TwistLaw, change: Array, name: str = "") -> TwistLaw:
     """A jig law with a named change of twist [rad] at STATIONS on top; its SPEC can be read again."""
     rates = np.diff(change) / np.diff(STATIONS)
-    return SumTwist(jig, PiecewiseLinearTwist(tuple(rates.tolist()), tuple(STATIONS[1:-1].tolist())), name)
+    return SumTwist(
+        jig, PiecewiseLinearTwist(tuple(rates.tolist()), tuple(STATIONS[1:-1].tolist())), name
+    )
 
 
 SMOOTH_DIVISIONS = (0.4, 0.55, 0.7, 0.82)
@@ -327,9 +359,20 @@ def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
     breaks = {parameter.name: value for parameter, value in named if parameter.unit == "R"}
     if breaks:
         concept = restrict(concept, breaks)
-        fixed = replace(fixed, values=tuple(value for parameter, value in named if parameter.unit != "R"))
-    first, second = (best_twist(design, concept, [fixed.values], known=known) for design in pair.designs())
-    starts = [fixed.values, first.values, second.values]  # Without breaks the other two are those found above.
+        fixed = replace(
+            fixed, values=tuple(value for parameter, value in named if parameter.unit != "R")
+        )
+    first, second = (
+        best_twist(design, concept, [fixed.values], known=known) for design in pair.designs()
+    )
+    # Without breaks the other two are those found above.
+    starts = [
+        fixed.values,
+        first.values,
+        second.values,
+    ]
     flights = pair.designs(), pair.shares, ()
     better = _search(flights, concept, None, starts, alone=not breaks, known=known)
-    return Baseline(pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power))
+    return Baseline(
+        pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power)
+    )

@@ -132,14 +132,20 @@ def break_even(pair: ConditionPair) -> BreakEven:
     rates[0] = base.fixed.values[0]
     for k in range(1, LINE_POINTS):
         swing = math.copysign(float(twists[k]), largest)
-        rates[k], power = task.best(swing, (min(first, base.fixed.values[0] - swing), max(first, base.fixed.values[0])))
+        rates[k], power = task.best(
+            swing, (min(first, base.fixed.values[0] - swing), max(first, base.fixed.values[0]))
+        )
         gross[k] = max(base.fixed.power - power, float(gross[k - 1]))
         masses[k] = task.mass(float(rates[k]), swing, base.fixed.power, float(masses[k - 1]))
     span = 1.0 - root
-    ideal = difference_doubt(pair.shares, [best.solutions[0] for best in base.best], base.fixed.solutions)
+    ideal = difference_doubt(
+        pair.shares, [best.solutions[0] for best in base.best], base.fixed.solutions
+    )
     assert ideal is not None
     within = ideal.change_band or 0.0
-    return BreakEven(pair, base.fixed.power, span * largest, span * twists, gross, rates, masses, within)
+    return BreakEven(
+        pair, base.fixed.power, span * largest, span * twists, gross, rates, masses, within
+    )
 
 
 class _Flown:
@@ -151,9 +157,13 @@ class _Flown:
 
     def power(self, rates: tuple[float, float], mass: float = 0.0) -> float:
         """With a mass on all blades together [kg]."""
-        designs = [self.base.concept.apply(one, [rate]) for one, rate in zip(self.pair.designs(), rates, strict=True)]
+        designs = [
+            self.base.concept.apply(one, [rate])
+            for one, rate in zip(self.pair.designs(), rates, strict=True)
+        ]
         trims = tuple(
-            solve(with_mass(design, mass), near).require() for design, near in zip(designs, self.trims, strict=True)
+            solve(with_mass(design, mass), near).require()
+            for design, near in zip(designs, self.trims, strict=True)
         )
         self.trims = trims
         return self.pair.mean(trim.power.total for trim in trims)
@@ -162,7 +172,10 @@ class _Flown:
         """The rate at the first condition of least power, and that power."""
         low, high = min(between) - 0.01, max(between) + 0.01
         search = minimize_scalar(
-            lambda rate: self.power((rate, rate + swing)), bounds=(low, high), method="bounded", options={"xatol": 1e-5}
+            lambda rate: self.power((rate, rate + swing)),
+            bounds=(low, high),
+            method="bounded",
+            options={"xatol": 1e-5},
         )
         return float(search.x), float(search.fun)
 
@@ -199,7 +212,9 @@ def with_mass(design: Design, mass: float) -> Design:
         loading = weight / (design.thrust_unit * design.rotor.solidity)
         more = replace(stand, ct_over_sigma=stand.ct_over_sigma + loading)
     else:
-        raise ValueError("the collective is given, so the rotor carries no set weight: give a thrust instead")
+        raise ValueError(
+            "the collective is given, so the rotor carries no set weight: give a thrust instead"
+        )
     return replace(loaded, condition=replace(loaded.condition, stand=more))
 
 
@@ -260,22 +275,35 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
     parts, start, flown = verdict.parts_doubt, [verdict.resting.values], verdict.optimum.solutions
     if not flown:  # The trims were left behind.
-        flown = best_actuated(base.pair, base.concept, installed, starts=[verdict.optimum.values]).solutions
+        flown = best_actuated(
+            base.pair, base.concept, installed, starts=[verdict.optimum.values]
+        ).solutions
     near, own = flown, [Analysis(trim) for trim in flown]
     # The doubts whose sum is that of the power with each stroke.
-    doubts: dict[float, tuple[Doubt | None, ...]] = {0.0: (parts["blade"], parts["stiffness"]), 1.0: ()}
+    doubts: dict[float, tuple[Doubt | None, ...]] = {
+        0.0: (parts["blade"], parts["stiffness"]),
+        1.0: (),
+    }
     for stroke in OTHER_STROKES:
-        found = best_actuated(base.pair, base.concept, installed, scale=stroke, starts=start, near=near)
+        found = best_actuated(
+            base.pair, base.concept, installed, scale=stroke, starts=start, near=near
+        )
         powers[stroke], near = found.power, found.solutions
         doubts[stroke] = (difference_doubt(base.pair.shares, near, own),)
     strokes = sorted(powers)
     least = [min(strokes[: k + 1], key=lambda stroke: powers[stroke]) for k in range(len(strokes))]
-    saved = np.array([verdict.reference_power - verdict.drive.hold_power - powers[stroke] for stroke in least])
+    saved = np.array(
+        [verdict.reference_power - verdict.drive.hold_power - powers[stroke] for stroke in least]
+    )
     twists, per_kg = np.array(strokes) * installed.attainable, verdict.mass_cost / mass
     carried = _changes(parts["mass"])
     net = _changes(verdict.doubt) - carried
-    changes = {stroke: sum(map(_changes, each), net * (stroke > 0.0)) for stroke, each in doubts.items()}
-    return OtherStroke(twists, saved, per_kg, np.array([changes[stroke] for stroke in least]).T, carried / mass)
+    changes = {
+        stroke: sum(map(_changes, each), net * (stroke > 0.0)) for stroke, each in doubts.items()
+    }
+    return OtherStroke(
+        twists, saved, per_kg, np.array([changes[stroke] for stroke in least]).T, carried / mass
+    )
 
 
 def _changes(doubt: Doubt | None) -> Array:
@@ -309,4 +337,9 @@ def break_even_chart(even: BreakEven) -> Chart:
         Line("no drive power", degrees, tuple(even.masses.tolist()), 1),
         Line(f"{half:.0f} W of drive", degrees, driven, 1, dashes=True),
     )
-    return Chart("Pays below the line", Axis("range of linear twist [°]"), Axis("mass of all blades [kg]"), lines)
+    return Chart(
+        "Pays below the line",
+        Axis("range of linear twist [°]"),
+        Axis("mass of all blades [kg]"),
+        lines,
+    )

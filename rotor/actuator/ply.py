@@ -15,7 +15,14 @@ from numpy.typing import ArrayLike
 
 from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit, MassBreakdown, Swings
 from rotor.actuator.limits import HALF_THICKNESS, fibre_strain
-from rotor.actuator.section import HostBlade, Placement, SectionSpec, calibrate, panels, passive_wall
+from rotor.actuator.section import (
+    HostBlade,
+    Placement,
+    SectionSpec,
+    calibrate,
+    panels,
+    passive_wall,
+)
 from rotor.dynamics.structure import structure_data, uh60a_structure
 from rotor.dynamics.thin_wall import (
     Layer,
@@ -72,7 +79,10 @@ class PiezoPly(Actuator):
         moduli = (row[key] for key in ("e1", "e2", "nu12", "g12", "density"))
         ranges = {"voltage_range": (row["voltage_min"], row["voltage_max"])}
         ranges["swing"] = row["swing_along"], row["swing_across"]
-        own = {"material": Material(row["name"], *moduli), "capacitance_per_area": row["capacitance"]}
+        own = {
+            "material": Material(row["name"], *moduli),
+            "capacitance_per_area": row["capacitance"],
+        }
         return super().read({**row, **ranges, **own})
 
     @property
@@ -131,9 +141,13 @@ class PiezoPly(Actuator):
 
         Measured swing over the voltage swing, not the coefficient d: the two differ by the material's non-linearity.
         """
-        return np.multiply.outer(np.array(self.swing) / self.voltage_swing, np.asarray(voltage, dtype=float))
+        return np.multiply.outer(
+            np.array(self.swing) / self.voltage_swing, np.asarray(voltage, dtype=float)
+        )
 
-    def voltages(self, swings: tuple[Swings, ...], host: HostBlade) -> tuple[tuple[float, float], ...]:
+    def voltages(
+        self, swings: tuple[Swings, ...], host: HostBlade
+    ) -> tuple[tuple[float, float], ...]:
         """A retrofit counts from zero volts. A new blade's jig twist is set so that the two voltages of a segment lie
         around zero as far as the negative range allows; without voltage the blade then flies between its two twists.
         """
@@ -154,7 +168,9 @@ class PiezoPly(Actuator):
         """The plies as one layer of a wall, fibres at `angle` [rad], driven through the whole voltage range."""
         return Layer(self.material, plies * self.thickness, angle, self.swing)
 
-    def masses(self, placement: Placement, blades: int, skin_area: float, length: float) -> MassBreakdown:
+    def masses(
+        self, placement: Placement, blades: int, skin_area: float, length: float
+    ) -> MassBreakdown:
         limits = structure_data()["limits"]
         wiring, electronics = float(limits["wiring_share"]), float(limits["electronics_share"])
         plies = self.material.density * self.thickness * placement.plies * skin_area
@@ -175,12 +191,16 @@ class PiezoPly(Actuator):
         data = structure_data()["electrical"]
         per_area = self.capacitance_per_area * installed.placement.plies
         segments = zip(installed.segment_areas, swings, strict=True)
-        energy = sum(0.5 * per_area * area * (swing * self.voltage_swing) ** 2 for area, swing in segments)
+        energy = sum(
+            0.5 * per_area * area * (swing * self.voltage_swing) ** 2 for area, swing in segments
+        )
         time = float(data["slew_s"])
         slew = installed.masses.blades * energy / time / float(data["amplifier_efficiency"])
         return Drive(self.capacitance(installed), 0.0, slew, time)
 
-    def harmonic_loss(self, installed: InstalledActuator, per_rev: float, amplitude: float) -> float:
+    def harmonic_loss(
+        self, installed: InstalledActuator, per_rev: float, amplitude: float
+    ) -> float:
         """Heat π f C V_a² tan δ [W] on one blade, the dielectric loss of a capacitor."""
         frequency = per_rev * installed.beam.angular_speed / (2.0 * math.pi)
         voltage = 0.5 * amplitude * self.voltage_swing
@@ -189,8 +209,14 @@ class PiezoPly(Actuator):
 
     # Limits
 
-    def limits(self, installed: InstalledActuator, swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
-        return *self._electrical(swings), self._strain(installed, solution), self._surface(installed)
+    def limits(
+        self, installed: InstalledActuator, swings: Swings, solution: Solution | None
+    ) -> tuple[Limit, ...]:
+        return (
+            *self._electrical(swings),
+            self._strain(installed, solution),
+            self._surface(installed),
+        )
 
     def _electrical(self, swings: Swings) -> tuple[Limit, Limit]:
         most = max((abs(swing) for swing in swings), default=0.0) * self.voltage_swing
@@ -200,7 +226,10 @@ class PiezoPly(Actuator):
         span = f"{low:g}…{high:g} V ({low / gap * 1e-6:.2g}…{high / gap * 1e-6:.2g} kV/mm)"
         needs, swings_by = f"needs a swing of {most:.0f} V", f"swings by {field:.2f} kV/mm"
         if most >= MOST_RANGES * self.voltage_swing:
-            needs, swings_by = "is out of range at any voltage", "would have to swing by hundreds of kV/mm"
+            needs, swings_by = (
+                "is out of range at any voltage",
+                "would have to swing by hundreds of kV/mm",
+            )
         by_voltage = f"The required twist {needs}; the range is {span}."
         by_field = f"The field {swings_by}; a reverse field beyond the range depolarises the sheet."
         voltage = Limit("voltage", ok, most, self.voltage_swing, "V", by_voltage)
@@ -208,7 +237,9 @@ class PiezoPly(Actuator):
 
     def _strain(self, installed: InstalledActuator, solution: Solution | None) -> Limit:
         strain = fibre_strain(installed, self.material.nu12, solution)
-        worst, linear, most = (1e6 * x for x in (float(strain.total.max()), self.linear_strain, self.largest_strain))
+        worst, linear, most = (
+            1e6 * x for x in (float(strain.total.max()), self.linear_strain, self.largest_strain)
+        )
         where = float(strain.r[strain.total.argmax()])
         flap = "with flap bending of the trimmed rotor" if solution else "without flap bending"
         sentence = (
@@ -222,9 +253,20 @@ class PiezoPly(Actuator):
         share = plies * self.thickness / (HALF_THICKNESS * uh60a_structure().chord)
         bound = float(structure_data()["limits"]["surface_share"])
         outside = installed.host.kind == "retrofit"
-        where = "outside the skins, which changes the contour" if outside else "inside the torsion skin"
-        sentence = f"Plies per side: {plies}, {where}: {100.0 * share:.1f} % of the section's thickness."
-        return Limit("space", not outside or share <= bound, 100.0 * share, 100.0 * bound, "% of thickness", sentence)
+        where = (
+            "outside the skins, which changes the contour" if outside else "inside the torsion skin"
+        )
+        sentence = (
+            f"Plies per side: {plies}, {where}: {100.0 * share:.1f} % of the section's thickness."
+        )
+        return Limit(
+            "space",
+            not outside or share <= bound,
+            100.0 * share,
+            100.0 * bound,
+            "% of thickness",
+            sentence,
+        )
 
 
 def balance_mass(mass: float, centre: float) -> float:

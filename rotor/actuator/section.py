@@ -41,15 +41,21 @@ class Placement:
         low, high = self.span
         front, rear = self.chord
         if not 0.05 <= low < high <= 1.0:
-            raise ValueError(f"active span {low:g}…{high:g} is not inside 0.05…1 R: give inner < outer as r/R")
+            raise ValueError(
+                f"active span {low:g}…{high:g} is not inside 0.05…1 R: give inner < outer as r/R"
+            )
         if not 0.0 <= front < rear <= 0.95:
-            raise ValueError(f"active chord {front:g}…{rear:g} is not inside 0…0.95 c: give front < rear as x/c")
+            raise ValueError(
+                f"active chord {front:g}…{rear:g} is not inside 0…0.95 c: give front < rear as x/c"
+            )
         if not 1 <= self.plies <= 12:
             raise ValueError(
                 f"{self.plies} plies are outside 1…12: choose a number inside (six weigh as much as half a blade)"
             )
         if any(a >= b for a, b in pairwise((0.0, *self.divisions, 1.0))):
-            raise ValueError(f"segment divisions {list(self.divisions)} must ascend between 0 and 1")
+            raise ValueError(
+                f"segment divisions {list(self.divisions)} must ascend between 0 and 1"
+            )
 
     @property
     def segments(self) -> tuple[tuple[float, float], ...]:
@@ -131,7 +137,9 @@ def calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | No
     return float(scipy.optimize.brentq(excess, thinnest, thickest, xtol=1e-8))
 
 
-def panels(spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None) -> tuple[Panel, ...]:
+def panels(
+    spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None
+) -> tuple[Panel, ...]:
     """Walls of thickness `wall` [m], from the upper trailing edge around the nose: the inside is on the left."""
     data = structure_data()["section"]
     retrofit = spec.host.kind == "retrofit"
@@ -149,7 +157,11 @@ def panels(spec: SectionSpec, wall: float, placement: Placement | None, active: 
             if active and placement and placement.chord[0] <= front and rear <= placement.chord[1]:
                 layers = (*layers, active)
             points = skin(spec, side, front, rear)
-            panels.append(Panel(points if side == "lower" else points[::-1], layers, (1,) if in_front else (2,)))
+            panels.append(
+                Panel(
+                    points if side == "lower" else points[::-1], layers, (1,) if in_front else (2,)
+                )
+            )
     if retrofit:
         panels.append(Panel(web_line(spec, web), front_skin, (1, -2)))
     panels.append(Panel(web_line(spec, end), rear_skin, (2,) if retrofit else (1,)))

@@ -71,7 +71,11 @@ SPEEDS = (0.0, 0.1, 0.2, 0.3, 0.35)
 
 
 def failure(
-    actuator: str | Verdict, design: Design | None = None, *, stops_at: float = 0.0, mu: Iterable[float] = SPEEDS
+    actuator: str | Verdict,
+    design: Design | None = None,
+    *,
+    stops_at: float = 0.0,
+    mu: Iterable[float] = SPEEDS,
 ) -> Failure:
     """Stop an actuator at one speed and fly on: power, stall, controls and engines' power.
 
@@ -92,11 +96,15 @@ def failure(
     """
     if isinstance(actuator, str):
         if design is None:
-            raise ValueError("an actuator needs a blade: give a design, for example rotor.make_design()")
+            raise ValueError(
+                "an actuator needs a blade: give a design, for example rotor.make_design()"
+            )
         actuator = try_actuator(actuator, design)
     flight = fly(actuator, [FlightLeg(f"µ {speed:g}", speed) for speed in (stops_at, *mu)])
     heavy = [with_actuator_mass(driven, actuator.installed) for driven in flight.designs]
-    return Failure(actuator.installed.actuator.id, stops_at, stopped_designs(heavy[1:], heavy[0], flight.jig))
+    return Failure(
+        actuator.installed.actuator.id, stops_at, stopped_designs(heavy[1:], heavy[0], flight.jig)
+    )
 
 
 def stopped_designs(
@@ -114,7 +122,9 @@ def stopped_designs(
         engines = design.aircraft.installed_power
         left = None if engines is None or not there.converged else engines - there.power.total
         mu = design.condition.advance_ratio
-        points.append(FailurePoint(mu, design.airspeed, numbers_of(here, jig), numbers_of(there, jig), left))
+        points.append(
+            FailurePoint(mu, design.airspeed, numbers_of(here, jig), numbers_of(there, jig), left)
+        )
     return tuple(points)
 
 
@@ -130,4 +140,6 @@ def numbers_of(trim: Solution, jig: TwistLaw | None) -> TrimNumbers:
         left = stops.left(controls.collective + turned, controls.cyclic_1c, controls.cyclic_1s)
     power = trim.power.total if trim.converged else None
     cyclic = math.hypot(controls.cyclic_1c, controls.cyclic_1s)
-    return TrimNumbers(float(tip - root), power, trim.stalled_area, controls.collective, cyclic, left, trim.message)
+    return TrimNumbers(
+        float(tip - root), power, trim.stalled_area, controls.collective, cyclic, left, trim.message
+    )

@@ -41,7 +41,10 @@ class ActuatorTable:
         names = list(range(self.keys))
         blocks = [list(names)]
         for k in range(self.keys, len(self.columns)):
-            if len(blocks[-1]) > self.keys and sum(widths[j] + 2 for j in blocks[-1]) + widths[k] > width:
+            if (
+                len(blocks[-1]) > self.keys
+                and sum(widths[j] + 2 for j in blocks[-1]) + widths[k] > width
+            ):
                 blocks.append(list(names))
             blocks[-1].append(k)
         lines = [self.title]
@@ -55,9 +58,13 @@ Row = dict[str, str]
 """A cell by the name of its column; all rows of a table have the same names."""
 
 
-def table_of(title: str, rows: Sequence[Row], notes: tuple[str, ...], keys: int = 1) -> ActuatorTable:
+def table_of(
+    title: str, rows: Sequence[Row], notes: tuple[str, ...], keys: int = 1
+) -> ActuatorTable:
     """A table whose columns are those of its rows."""
-    return ActuatorTable(title, tuple(rows[0]), tuple(tuple(row.values()) for row in rows), notes, keys)
+    return ActuatorTable(
+        title, tuple(rows[0]), tuple(tuple(row.values()) for row in rows), notes, keys
+    )
 
 
 def table_5_1() -> ActuatorTable:
@@ -72,7 +79,11 @@ def table_5_1() -> ActuatorTable:
         "Numbers and sources: assets/actuators.toml.",
     )
     blank = {key: NONE for actuator in known for key in actuator.properties}
-    return table_of("Table 5.1  Actuator properties", [_properties(actuator, blank) for actuator in known], notes)
+    return table_of(
+        "Table 5.1  Actuator properties",
+        [_properties(actuator, blank) for actuator in known],
+        notes,
+    )
 
 
 def _properties(actuator: Actuator, blank: Row) -> Row:
@@ -126,7 +137,8 @@ def _comparison(verdict: Verdict) -> Row:
         "needed °": f"{math.degrees(verdict.required):.2f}",
         "nominal °": f"{math.degrees(verdict.attainable):.2f}",
         "needed/nominal": f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
-        "voltages V": "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages) or NONE,
+        "voltages V": "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages)
+        or NONE,
         "mass kg": f"{installed.masses.aircraft:.0f}",
         "torsion /rev": f"{installed.frequency:.2f}",
         "ideal kW": _banded(verdict, "ideal", verdict.ideal_saving),

@@ -75,22 +75,35 @@ class TorqueTube(Actuator):
         load = count * compliance + length / self.link_stiffness
         return count * self.torque / (1.0 + self.torque * load / self.free_rotation)
 
-    def moments(self, moment: float, compliance: Array, lengths: Array, placement: Placement) -> Array:
+    def moments(
+        self, moment: float, compliance: Array, lengths: Array, placement: Placement
+    ) -> Array:
         pairs = zip(compliance.tolist(), lengths.tolist(), strict=True)
-        return np.array([self.working_torque(unit, length, placement.plies) for unit, length in pairs])
+        return np.array(
+            [self.working_torque(unit, length, placement.plies) for unit, length in pairs]
+        )
 
-    def masses(self, placement: Placement, blades: int, skin_area: float, length: float) -> MassBreakdown:
+    def masses(
+        self, placement: Placement, blades: int, skin_area: float, length: float
+    ) -> MassBreakdown:
         limits = structure_data()["limits"]
         packages = placement.plies * self.mass * len(placement.segments)
-        wiring, electronics = float(limits["wiring_share"]) * packages, float(limits["electronics_share"]) * packages
+        wiring, electronics = (
+            float(limits["wiring_share"]) * packages,
+            float(limits["electronics_share"]) * packages,
+        )
         made = packages + placement.plies * self.link_mass * length
         return MassBreakdown(blades, made, wiring, 0.0, electronics * blades)
 
     def drive(self, installed: InstalledActuator, swings: Swings) -> Drive:
-        tubes = installed.masses.blades * installed.placement.plies * len(installed.placement.segments)
+        tubes = (
+            installed.masses.blades * installed.placement.plies * len(installed.placement.segments)
+        )
         return Drive(0.0, tubes * self.hold_power, tubes * self.move_power, self.move_time)
 
-    def limits(self, installed: InstalledActuator, swings: Swings, solution: Solution | None) -> tuple[Limit, ...]:
+    def limits(
+        self, installed: InstalledActuator, swings: Swings, solution: Solution | None
+    ) -> tuple[Limit, ...]:
         worst = max((abs(swing) for swing in swings), default=0.0)
         retrofit = installed.host.kind == "retrofit"
         height = WEB_HEIGHT * uh60a_structure().chord
@@ -105,8 +118,17 @@ class TorqueTube(Actuator):
             f"{tubes * self.torque:.0f} N·m when blocked."
         )
         fits = not retrofit and self.diameter <= height
-        by_space = f"A tube of {1e3 * self.diameter:.0f} mm in a spar {1e3 * height:.0f} mm high: {where}."
+        by_space = (
+            f"A tube of {1e3 * self.diameter:.0f} mm in a spar {1e3 * height:.0f} mm high: {where}."
+        )
         return (
             Limit("torque", worst <= 1.0 + 1e-9, worst * moment, moment, "N·m", by_torque),
-            Limit("space", fits, 1e3 * self.diameter, 0.0 if retrofit else 1e3 * height, "mm", by_space),
+            Limit(
+                "space",
+                fits,
+                1e3 * self.diameter,
+                0.0 if retrofit else 1e3 * height,
+                "mm",
+                by_space,
+            ),
         )

@@ -14,7 +14,14 @@ from rotor.actuator.catalogue import engines_of, find_actuator, fuel_caveats
 from rotor.actuator.installation import install, with_actuator_mass
 from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit
 from rotor.actuator.limits import limits
-from rotor.actuator.optimum import Baseline, ConditionPair, TwistOptimum, baseline, best_actuated, best_twist
+from rotor.actuator.optimum import (
+    Baseline,
+    ConditionPair,
+    TwistOptimum,
+    baseline,
+    best_actuated,
+    best_twist,
+)
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import Concept, find_concept
@@ -157,7 +164,11 @@ class Verdict:
         """Name and saving [W] of each part, costs negative; their sum is `net_saving`. First, where they differ, the
         blade without the actuator against the best fixed one."""
         blades = self.reference_power - self.bare_power
-        parts = [("blade", blades)] if self.against == "best-fixed" and blades else list[tuple[str, float]]()
+        parts = (
+            [("blade", blades)]
+            if self.against == "best-fixed" and blades
+            else list[tuple[str, float]]()
+        )
         parts.append(("gross", self.gross_saving - sum(part for _, part in parts)))
         if self.stiffness_cost:
             parts.append(("stiffness", -self.stiffness_cost))
@@ -176,14 +187,19 @@ class Verdict:
             return None
         pairs = zip(self.reference_powers, self.loaded_powers, strict=True)
         return self.baseline.pair.mean(
-            engines.flow(before) - engines.flow(after + self.drive.hold_power) for before, after in pairs
+            engines.flow(before) - engines.flow(after + self.drive.hold_power)
+            for before, after in pairs
         )
 
     @property
     def fuel_band(self) -> float | None:
         """Uncertainty of `fuel_saving`, ± [kg/s], in proportion to that of power; None where it is not known."""
         saved, band = self.fuel_saving, self.net_band
-        return None if saved is None or band is None or not self.net_saving else band * abs(saved / self.net_saving)
+        return (
+            None
+            if saved is None or band is None or not self.net_saving
+            else band * abs(saved / self.net_saving)
+        )
 
     @property
     def broken(self) -> tuple[Limit, ...]:
@@ -232,10 +248,19 @@ def try_actuator(
     ValueError with one sentence for what cannot be used, RuntimeError where nothing trims.
     """
     if isinstance(name, Design):  # pyright: ignore[reportUnnecessaryIsInstance]
-        raise TypeError("the actuator's name comes first: rotor.actuator.try_actuator('MFC_P1', design)")
+        raise TypeError(
+            "the actuator's name comes first: rotor.actuator.try_actuator('MFC_P1', design)"
+        )
     host = HostBlade("new", 0.5) if new_blade else HostBlade()
     pair = ConditionPair(require_design(design), mu, share)
-    return judge(find_actuator(name), pair, find_concept(concept), default_placement(plies), host, against=against)
+    return judge(
+        find_actuator(name),
+        pair,
+        find_concept(concept),
+        default_placement(plies),
+        host,
+        against=against,
+    )
 
 
 def judge(
@@ -259,14 +284,19 @@ def judge(
     resting, counted_from = base.fixed, base.fixed.solutions
     near = counted_from
     if host.kind == "retrofit" or against == "same-blade":
-        built = [solve(design, start).require() for design, start in zip(pair.designs(), near, strict=True)]
+        built = [
+            solve(design, start).require()
+            for design, start in zip(pair.designs(), near, strict=True)
+        ]
         if host.kind == "retrofit":
             resting, near = TwistOptimum((), (), (), pair.mean(_totals(built))), built
         if against == "same-blade":
             counted_from = built
     bare, bare_power, free = near, resting.power, [best.solutions[0] for best in base.best]
     if pair.design.elastic:
-        resting = best_actuated(pair, base.concept, installed, scale=0.0, starts=[base.fixed.values], near=near)
+        resting = best_actuated(
+            pair, base.concept, installed, scale=0.0, starts=[base.fixed.values], near=near
+        )
         near = resting.solutions
         free = [
             best_twist(installed.on(design), base.concept, [best.values], alone=True).solutions[0]
@@ -274,8 +304,14 @@ def judge(
         ]
     reached = best_actuated(pair, base.concept, installed, starts=[resting.values], near=near)
     required = base.segment_changes(installed.placement.divisions)
-    heavy = [solve(with_actuator_mass(flown.design, installed), flown).require() for flown in reached.solutions]
-    free = [min(two, key=lambda trim: trim.power.total) for two in zip(free, reached.solutions, strict=True)]
+    heavy = [
+        solve(with_actuator_mass(flown.design, installed), flown).require()
+        for flown in reached.solutions
+    ]
+    free = [
+        min(two, key=lambda trim: trim.power.total)
+        for two in zip(free, reached.solutions, strict=True)
+    ]
     doubts = _doubts(pair.shares, against, reached.solutions, near, bare, counted_from, heavy, free)
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, MIN_TWIST))
     return Verdict(
@@ -289,7 +325,9 @@ def judge(
         bare_power=bare_power,
         free_power=pair.mean(_totals(free)),
         loaded_powers=_totals(heavy),
-        drive=actuator.drive(installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))),
+        drive=actuator.drive(
+            installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))
+        ),
         doubt=doubts.pop("net"),
         parts_doubt=doubts,
         limits=limits(installed, asked, reached.solutions[-1]),
@@ -297,15 +335,26 @@ def judge(
     )
 
 
-def _doubts(shares: Sequence[float], against: Against, *blades: Sequence[Solution]) -> dict[str, Doubt | None]:
+def _doubts(
+    shares: Sequence[float], against: Against, *blades: Sequence[Solution]
+) -> dict[str, Doubt | None]:
     """How sure the parts of a verdict are, and `net`. blades: trims of the one that is driven, at rest, bare, that
     savings count from, with the actuator's mass, and free."""
     known = {id(trim): Analysis(trim) for trims in blades for trim in trims}
-    flown, still, own, other, loaded, ideal = ([known[id(trim)] for trim in trims] for trims in blades)
+    flown, still, own, other, loaded, ideal = (
+        [known[id(trim)] for trim in trims] for trims in blades
+    )
     same_blade = own == other or against == "best-fixed"
     steps = {"blade": (own, other), "gross": (flown, still if same_blade else other)}
-    steps |= {"stiffness": (still, own), "mass": (loaded, flown), "ideal": (ideal, still if own == other else other)}
-    return {name: difference_doubt(shares, *step) for name, step in {"net": (loaded, other), **steps}.items()}
+    steps |= {
+        "stiffness": (still, own),
+        "mass": (loaded, flown),
+        "ideal": (ideal, still if own == other else other),
+    }
+    return {
+        name: difference_doubt(shares, *step)
+        for name, step in {"net": (loaded, other), **steps}.items()
+    }
 
 
 def _totals(solutions: Sequence[Solution]) -> tuple[float, float]:
@@ -321,16 +370,23 @@ MIN_SHOWN_IN_KW = 50.0
 
 def verdict_sentence(verdict: Verdict) -> str:
     """One line: what the twist saves, what the actuator costs, and whether it pays."""
-    parts = verdict.gross_saving, *(part for name, part in verdict.savings if name not in ("blade", "gross"))
+    parts = (
+        verdict.gross_saving,
+        *(part for name, part in verdict.savings if name not in ("blade", "gross")),
+    )
     gains, costs = (sum(max(sign * part, 0.0) for part in parts) for sign in (1.0, -1.0))
     forbidden = verdict.installed.actuator.forbidden
-    text = f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
+    text = (
+        f"Saves {kilowatt_text(gains)} over {reference(verdict)} and costs {kilowatt_text(costs)}"
+    )
     text = f"{forbidden.capitalize()}; if it could work, it s{text[1:]}" if forbidden else text
     sure = net_band_words(verdict) and f" ({net_band_words(verdict)})"
     if verdict.net_saving < MIN_SHOWN_W:
         return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{sure}."
     but = "" if verdict.pays or forbidden else f", but it cannot be built ({_broken(verdict)})"
-    return f"{text}, a net saving of {kilowatt_text(verdict.net_saving, _digits(verdict))}{sure}{but}."
+    return (
+        f"{text}, a net saving of {kilowatt_text(verdict.net_saving, _digits(verdict))}{sure}{but}."
+    )
 
 
 def net_band_words(verdict: Verdict) -> str:
@@ -343,12 +399,20 @@ def net_band_words(verdict: Verdict) -> str:
 
 
 def _digits(verdict: Verdict) -> int:
-    return 1 if verdict.net_band is None else change_decimals(verdict.net_saving / 1e3, verdict.net_band / 1e3, 1)
+    return (
+        1
+        if verdict.net_band is None
+        else change_decimals(verdict.net_saving / 1e3, verdict.net_band / 1e3, 1)
+    )
 
 
 def verdict_details(verdict: Verdict) -> str:
     """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits."""
-    sentences, saved, band = [_reach(verdict), _savings(verdict)], verdict.fuel_saving, verdict.fuel_band
+    sentences, saved, band = (
+        [_reach(verdict), _savings(verdict)],
+        verdict.fuel_saving,
+        verdict.fuel_band,
+    )
     if saved is not None:
         size, sourced = f"{abs(3600.0 * saved):.1f} kg/h", verdict.sourced
         if band is not None:
@@ -361,7 +425,11 @@ def verdict_details(verdict: Verdict) -> str:
 
 def reference(verdict: Verdict) -> str:
     """The baseline blade of all savings of a verdict."""
-    same = "the same blade without it" if verdict.installed.host.kind == "retrofit" else "the present blade"
+    same = (
+        "the same blade without it"
+        if verdict.installed.host.kind == "retrofit"
+        else "the present blade"
+    )
     return same if verdict.against == "same-blade" else "the best fixed blade"
 
 
@@ -389,7 +457,9 @@ def _savings(verdict: Verdict) -> str:
         parts[0] += f", and its built-in twist alone {part_words(verdict, 'blade', start)}"
     if abs(verdict.stiffness_cost) >= MIN_SHOWN_IN_KW:
         other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
-        parts.append(f"the {other} elastic blade {part_words(verdict, 'stiffness', -verdict.stiffness_cost)}")
+        parts.append(
+            f"the {other} elastic blade {part_words(verdict, 'stiffness', -verdict.stiffness_cost)}"
+        )
     mass = installed.masses.aircraft
     parts.append(f"carrying {mass:.0f} kg {part_words(verdict, 'mass', -verdict.mass_cost)}")
     parts.append(f"its drive costs {kilowatt_text(verdict.drive_cost)}")
@@ -398,7 +468,11 @@ def _savings(verdict: Verdict) -> str:
 
 
 def part_words(verdict: Verdict, name: str, saving: float) -> str:
-    verb, size, band = "costs" if saving <= -MIN_SHOWN_W else "saves", abs(saving), verdict.band_of(name)
+    verb, size, band = (
+        "costs" if saving <= -MIN_SHOWN_W else "saves",
+        abs(saving),
+        verdict.band_of(name),
+    )
     if not band or size < MIN_SHOWN_W:
         return f"{verb} {kilowatt_text(size)}"
     return f"{verb} {banded(size / 1e3, band / 1e3, 'kW', 1, sourced=verdict.sourced)}"

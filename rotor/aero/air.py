@@ -40,7 +40,9 @@ def air_motion(design: Design, disk: Disk) -> AirMotion:
     if gust is None or type(gust).over_disk is Gust.over_disk:
         return AirMotion(design.vertical_ratio)
     if design.hovering and not gust.axisymmetric:
-        raise ValueError(f"{gust!r:.80} changes with azimuth, and hover has one azimuth: give a speed, or w(r) alone")
+        raise ValueError(
+            f"{gust!r:.80} changes with azimuth, and hover has one azimuth: give a speed, or w(r) alone"
+        )
     r, unsteady = disk.r[:, None], design.models.has("unsteady") and not design.hovering
     lag = 0.5 * design.rotor.blade.chord(r) / (design.rotor.radius * r) if unsteady else 0.0
     value, rate = gust.over_disk(r, disk.psi - lag), gust.over_disk(r, disk.psi - 0.5 * lag, 1)

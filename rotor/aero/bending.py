@@ -29,7 +29,13 @@ from rotor.aero.disk import Disk, element_edges
 from rotor.aero.elastic import MODES as TORSION_MODES
 from rotor.design.blade import Rotor
 from rotor.design.twist import TwistLaw
-from rotor.dynamics.bending import BendingModes, bending_beam, bending_modes, blade_bending_modes, frequencies_by_kind
+from rotor.dynamics.bending import (
+    BendingModes,
+    bending_beam,
+    bending_modes,
+    blade_bending_modes,
+    frequencies_by_kind,
+)
 from rotor.dynamics.torsion import blade_modes
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
@@ -100,12 +106,19 @@ def build_bending(
     reference: float = REFERENCE_COLLECTIVE,
 ) -> BladeBending:
     """The bending of a rotor's blade, which must have the structure for it, in air of a density [kg/m³]."""
-    blade, structure, radius, speed = rotor.blade, rotor.blade.structure, rotor.radius, rotor.angular_speed
+    blade, structure, radius, speed = (
+        rotor.blade,
+        rotor.blade.structure,
+        rotor.radius,
+        rotor.angular_speed,
+    )
     assert structure is not None
     hingeless, root, springs = blade.hingeless, _root(rotor), _springs(rotor)
     stations = np.linspace(root, radius, 33)
     pitch = tuple((reference + rotor.builtin_twist(stations / radius)).tolist())
-    blade_modes = blade_bending_modes(structure, speed, root, (tuple(stations.tolist()), pitch), modes, springs)
+    blade_modes = blade_bending_modes(
+        structure, speed, root, (tuple(stations.tolist()), pitch), modes, springs
+    )
     force = density * math.pi * radius**2 * rotor.tip_speed**2 / rotor.blades
     scale, first = _scale(blade_modes, radius)
     lengths = np.array([1.0 / radius, 1.0, radius] * 2)[:, None, None] * scale[:, None]
@@ -120,9 +133,14 @@ def build_bending(
     load = -GRAVITY / (radius * speed**2) * (along[0] @ strips) - precone * (along[1] @ tension)
     load[first] += precone * mass[first] * frequency[first] ** 2
     slope = blade_modes.nodal[:, 0, 3] * scale  # At the root, 0 where it is held.
-    lag, flap = (structure.at(disk.r * radius, ei) for ei in (structure.lag_stiffness, structure.flap_stiffness))
+    lag, flap = (
+        structure.at(disk.r * radius, ei)
+        for ei in (structure.lag_stiffness, structure.flap_stiffness)
+    )
     edges = element_edges(disk.dr) * radius
-    outboard = _beyond(np.concatenate([strips * along[3], strips[None]]), along[1, first] ** 2 * widths, r, edges)
+    outboard = _beyond(
+        np.concatenate([strips * along[3], strips[None]]), along[1, first] ** 2 * widths, r, edges
+    )
     inboard = widths * (r < edges[0]), edges[1] - edges[0]
     bent = along[[2, 5]].reshape(-1, _STATIONS), shapes[[2, 5]].reshape(-1, len(disk.r))
     turned = 2.0 * (reference + rotor.builtin_twist(disk.r))
@@ -155,7 +173,10 @@ def _scale(modes: BendingModes, radius: float) -> tuple[Array, int]:
     place of rigid flapping, which moves it by R less the hinge; and its number."""
     tip = modes.at([radius])[:, :, 0]
     first = int(np.flatnonzero(modes.flap_share > 0.5)[0])
-    scale = radius / np.take_along_axis(tip[[0, 3]], np.argmax(np.abs(tip[[0, 3]]), axis=0)[None], axis=0)[0]
+    scale = (
+        radius
+        / np.take_along_axis(tip[[0, 3]], np.argmax(np.abs(tip[[0, 3]]), axis=0)[None], axis=0)[0]
+    )
     scale[first] = (radius - modes.beam.nodes[0]) / tip[0, first]
     return scale, first
 
@@ -169,7 +190,9 @@ def _beyond(strips: Array, weights: Array, r: Array, edges: Array) -> Array:
     count = len(edges) - 1
     cell = np.clip(np.searchsorted(edges, r, side="right") - 1, 0, count - 1)
     inside = np.bincount(cell, weights, count)
-    means = np.stack([np.bincount(cell, row * weights, count) for row in sums]) / np.where(inside, inside, 1.0)
+    means = np.stack([np.bincount(cell, row * weights, count) for row in sums]) / np.where(
+        inside, inside, 1.0
+    )
     middle = 0.5 * (edges[1:] + edges[:-1])
     between: list[Array] = [np.interp(middle, r, row) for row in sums]
     return np.where(inside, means, np.stack(between))
@@ -205,14 +228,20 @@ def blade_frequencies(rotor: Rotor, twist: TwistLaw, collective: float) -> Blade
 
     beam = bending_beam(structure, rotor.angular_speed, _root(rotor), pitch, _springs(rotor))
     flap, lag = frequencies_by_kind(bending_modes(beam, sum(MODES)))
-    torsion = blade_modes(structure, rotor.angular_speed, TORSION_MODES).frequency / rotor.angular_speed
+    torsion = (
+        blade_modes(structure, rotor.angular_speed, TORSION_MODES).frequency / rotor.angular_speed
+    )
     return BladeFrequencies(tuple(flap), tuple(lag), tuple(torsion.tolist()))
 
 
 def can_bend(rotor: Rotor) -> bool:
     """Whether the stiffness of the blade is known, and its root: held, or with its hinges away from the shaft."""
     structure = rotor.blade.structure
-    return structure is not None and structure.bends and (rotor.blade.hingeless or rotor.blade.flap_hinge > 0.0)
+    return (
+        structure is not None
+        and structure.bends
+        and (rotor.blade.hingeless or rotor.blade.flap_hinge > 0.0)
+    )
 
 
 def _springs(rotor: Rotor) -> tuple[float, float]:

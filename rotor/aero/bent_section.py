@@ -82,7 +82,9 @@ def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> 
                 out[o, i, j] = f[o, i, j]
             w, v = c[first, i, j], c[first + 1, i, j]
             kw, kv, b = c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
-            out[FZ, i, j], out[FX, i, j], out[FR, i, j] = _back(f[FZ, i, j], f[FX, i, j], f[FR, i, j], w, v)
+            out[FZ, i, j], out[FX, i, j], out[FR, i, j] = _back(
+                f[FZ, i, j], f[FX, i, j], f[FR, i, j], w, v
+            )
             sine, cosine = of_double_angle(c[TH, i, j])
             out[M, i, j] -= coupling[i] * ((kw * kw - kv * kv) * sine + 2.0 * kw * kv * cosine)
             out[forces, i, j] = share[i] * (w * w + v * v)
@@ -95,7 +97,9 @@ def _turn_back(c: Any, first: int, f: Any, forces: int, data: Any, out: Any) -> 
 
 
 @_compile
-def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, place: Any, data: Any, out: Any) -> None:
+def _slopes_back(
+    c: Any, first: int, f: Any, d: Any, rows: Any, place: Any, data: Any, out: Any
+) -> None:
     """Partial derivatives of all forces by all channels; rows: those of the section, place: those here, by pair."""
     coupling, reference, share = data
     forces, channels = rows.shape
@@ -127,7 +131,10 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, place: Any, data
             kw, kv, b = c[first + 2, i, j], c[first + 3, i, j], c[first + 4, i, j]
             sine, cosine = of_double_angle(c[TH, i, j])
             full[M, TH, j] -= 2.0 * stiff * ((kw * kw - kv * kv) * cosine - 2.0 * kw * kv * sine)
-            by_w, by_v = 2.0 * stiff * (kw * sine + kv * cosine), 2.0 * stiff * (kw * cosine - kv * sine)
+            by_w, by_v = (
+                2.0 * stiff * (kw * sine + kv * cosine),
+                2.0 * stiff * (kw * cosine - kv * sine),
+            )
             out[row, i, j] = -by_w  # M by κ_w and κ_v.
             out[row + 1, i, j] = -by_v
             out[row + 2, i, j] = 2.0 * share[i] * w[j]  # E by w' and v'.
@@ -154,11 +161,18 @@ def _slopes_back(c: Any, first: int, f: Any, d: Any, rows: Any, place: Any, data
 def bending_interface(inner: SectionInterface) -> SectionInterface:
     """The interface of a section on a blade that bends."""
     first, forces = inner.channels, inner.forces
-    tilts, (kw, kv, b) = (first + SW + 5, first + SV + 5), (first + 5 + channel for channel in (KW, KV, B))
+    tilts, (kw, kv, b) = (
+        (first + SW + 5, first + SV + 5),
+        (first + 5 + channel for channel in (KW, KV, B)),
+    )
     moved = {channel for force, channel in inner.pairs if force in (FX, FZ, FR)}
     pairs = list[tuple[int, int]]()
     for force in sorted(range(forces), key=lambda o: o == M):  # M last: those of bending follow it.
-        followed = moved if force in (FX, FZ, FR) else {channel for o, channel in inner.pairs if o == force}
+        followed = (
+            moved
+            if force in (FX, FZ, FR)
+            else {channel for o, channel in inner.pairs if o == force}
+        )
         pairs += [(force, channel) for channel in (*sorted(followed | {UT, UP, UR}), *tilts)]
     rows, place = places_of(inner.pairs, forces, first), places_of(pairs, forces, first + 2)
     last = {force: forces + 5 + force for force in BENDING}
@@ -170,7 +184,10 @@ def bending_interface(inner: SectionInterface) -> SectionInterface:
 
     def section(c: Array, data: BentData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
         f, d, s = inner.section(turned(c, first), data.section, slopes, flow)
-        out, blade = np.empty((forces + 5, *c.shape[1:])), (data.coupling, data.reference, data.share)
+        out, blade = (
+            np.empty((forces + 5, *c.shape[1:])),
+            (data.coupling, data.reference, data.share),
+        )
         _turn_back(c, first, f, forces, blade, out)
         partials = np.empty((len(pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
         if slopes:
@@ -183,11 +200,13 @@ def bending_interface(inner: SectionInterface) -> SectionInterface:
         within = inner.memory(turned(c, first), data.section)
         t, p, r, w, v = c[UT], c[UP], c[UR], c[first], c[first + 1]
         left = np.concatenate([within.left, np.zeros((5, *within.left.shape[1:]))])
-        left[FZ], left[FX], left[FR] = _back.py_func(within.left[FZ], within.left[FX], within.left[FR], w, v)
+        left[FZ], left[FX], left[FR] = _back.py_func(
+            within.left[FZ], within.left[FX], within.left[FR], w, v
+        )
         right = np.concatenate([within.right, np.zeros((len(within.right), 5, *t.shape))], axis=1)
         by_air = (within.right[:, channel] for channel in (UT, UP, UR))
-        right[:, UT], right[:, UP], right[:, UR], right[:, first], right[:, first + 1] = _by_hub.py_func(
-            *by_air, t, p, r, w, v
+        right[:, UT], right[:, UP], right[:, UR], right[:, first], right[:, first + 1] = (
+            _by_hub.py_func(*by_air, t, p, r, w, v)
         )
         return LagFactors(left, within.lags, right)
 

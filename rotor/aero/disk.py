@@ -6,7 +6,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rotor.airfoil.section_table import MACH_STEP, N_MACH, SectionTable, attached_lift, held_beyond_peak
+from rotor.airfoil.section_table import (
+    MACH_STEP,
+    N_MACH,
+    SectionTable,
+    attached_lift,
+    held_beyond_peak,
+)
 from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_onset import ZERO, stall_onset, unstalled
 from rotor.design.blade import Blade, Rotor
@@ -125,9 +131,21 @@ def build_disk(
     # Mass and stiffness are not on the grid: blades that differ in them alone share its large tables. Each has a disk
     # of its own, because the modes of a blade are kept by its disk.
     blade = replace(rotor.blade, flap_inertia=1.0, flap_static_moment=0.0, mass=1.0, structure=None)
-    rest, shown = replace(rotor, blade=blade), {"swept": swept, "surface": surface, "stalls": stalls}
+    rest, shown = (
+        replace(rotor, blade=blade),
+        {"swept": swept, "surface": surface, "stalls": stalls},
+    )
     shown["fine_tip"] = fine_tip
-    return replace(_disk(rest, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown))
+    return replace(
+        _disk(
+            rest,
+            elements=elements,
+            azimuths=azimuths,
+            only_mach=only_mach,
+            reynolds=reynolds,
+            **shown,
+        )
+    )
 
 
 @bytes_cache
@@ -150,16 +168,27 @@ def _disk(
 
     installed = {span.section: blade.installed(span.section) for span in blade.spans}
     pairs = [_pair(blade, installed, float(station), reynolds) for station in r]
-    own = (part for item in installed.values() for part in ([each for _, each in item.of_reynolds] or [item]))
+    own = (
+        part
+        for item in installed.values()
+        for part in ([each for _, each in item.of_reynolds] or [item])
+    )
     sections = tuple(dict.fromkeys((*own, *(item for pair in pairs for item in pair[:2]))))
     section = np.array([[sections.index(item) for item in pair[:2]] for pair in pairs])
     weight = np.array([pair[2] for pair in pairs])
     offset = np.array([[item.incidence_offset for item in pair[:2]] for pair in pairs])
-    ratio = np.array([(1.0 - share) * inner.chord_ratio + share * outer.chord_ratio for inner, outer, share in pairs])
+    ratio = np.array(
+        [
+            (1.0 - share) * inner.chord_ratio + share * outer.chord_ratio
+            for inner, outer, share in pairs
+        ]
+    )
     half_solidity = rotor.blades * blade.chord(r) * ratio / (2.0 * math.pi * rotor.radius)
     sweep = blade.sweep(r, rotor.radius) if swept else np.zeros(elements)
     if not stalls:
-        sections = tuple(replace(item, table=unstalled(item.table), of_reynolds=()) for item in sections)
+        sections = tuple(
+            replace(item, table=unstalled(item.table), of_reynolds=()) for item in sections
+        )
     tables = _at_mach(sections, only_mach)
     coefficients, held = _stacked(tables, blade.surface_drag if surface else 1.0)
     mach = MACH_STEP * np.arange(N_MACH + 1)
@@ -186,7 +215,9 @@ def _disk(
     )
 
 
-def _pair(blade: Blade, installed: dict[str, Section], r: float, reynolds: float) -> tuple[Section, Section, float]:
+def _pair(
+    blade: Blade, installed: dict[str, Section], r: float, reynolds: float
+) -> tuple[Section, Section, float]:
     """The two sections blended at r = y/R, each with one table, and the share of the second.
 
     Within a span they are those of the two nearest Reynolds numbers. In a gap between spans, where there would be four,
@@ -194,7 +225,8 @@ def _pair(blade: Blade, installed: dict[str, Section], r: float, reynolds: float
     """
     inner, outer, weight = blade.section_at(r)
     (first, there), (second, beyond) = (
-        (item, float(blade.reynolds(item, r, reynolds))) for item in (installed[inner], installed[outer])
+        (item, float(blade.reynolds(item, r, reynolds)))
+        for item in (installed[inner], installed[outer])
     )
     if weight > 0.0:
         return first.one_at(there), second.one_at(beyond), weight
@@ -205,7 +237,9 @@ def _pair(blade: Blade, installed: dict[str, Section], r: float, reynolds: float
 @bytes_cache
 def _at_mach(sections: tuple[Section, ...], only_mach: float | None) -> tuple[SectionTable, ...]:
     """Their tables, or those of one Mach number."""
-    return tuple(item.table if only_mach is None else item.table.held_at(only_mach) for item in sections)
+    return tuple(
+        item.table if only_mach is None else item.table.held_at(only_mach) for item in sections
+    )
 
 
 @bytes_cache
@@ -237,7 +271,9 @@ def build_onset(disk: Disk, only_mach: float | None = None) -> tuple[Array, Arra
     numbers = np.stack([each.numbers for each in onsets])[disk.section]  # (elements, 2, 8, nodes)
     numbers[:, :, ZERO] += disk.offset[:, :, None]
     share = disk.weight[:, None, None]
-    return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], _onset_tables(disk.sections, only_mach)
+    return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], _onset_tables(
+        disk.sections, only_mach
+    )
 
 
 @bytes_cache

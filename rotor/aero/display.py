@@ -79,7 +79,9 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
     matrix = resampling(len(e.beta), azimuths)
     fields = np.stack([getattr(e, name) for name in FLOW_FIELDS]) @ matrix
     rates = None if e.rates is None else e.rates @ matrix
-    f, s, bends = _sections(problem, e, fields[:6] if rates is None else np.concatenate([fields[:6], rates]), matrix)
+    f, s, bends = _sections(
+        problem, e, fields[:6] if rates is None else np.concatenate([fields[:6], rates]), matrix
+    )
     twist = None
     if e.torsion is not None and torsion is not None:
         around = e.torsion.coordinates @ wave_grid(torsion.functions, azimuths).at
@@ -88,7 +90,9 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
     return replace(e, **values, beta=e.beta @ matrix, torsion=twist, bent=bends, rates=rates)
 
 
-def _sections(problem: Problem, e: BladeElements, flow: Array, matrix: Array) -> tuple[Array, Array, BentState | None]:
+def _sections(
+    problem: Problem, e: BladeElements, flow: Array, matrix: Array
+) -> tuple[Array, Array, BentState | None]:
     """Forces and flow of a problem at channels of its azimuths, and there how the blade bends."""
     bends = None
     if e.bent is not None:
@@ -107,7 +111,9 @@ def pitch_of_alpha(flow: Any) -> Array:
     return flow.theta + np.remainder(ahead + math.pi, 2.0 * math.pi) - math.pi
 
 
-def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[float, float, float, float, float]:
+def areas(
+    disk: Disk, elements: BladeElements, stall_margin: Array
+) -> tuple[float, float, float, float, float]:
     """Reverse-flow area and stalled area over πR², the latter outside reverse flow, and the stalled parts of the thrust
     and of its moment about the hub, Σ r dT; last the least margin to stall, negative where there is a stalled area.
 
@@ -135,9 +141,19 @@ def areas(disk: Disk, elements: BladeElements, stall_margin: Array) -> tuple[flo
             left = matrix @ unsteady.separation - STALLED
     stalled = (left < 0.0) & ~reverse
     moment = r[:, None] * lift
-    of_lift, of_moment = (float(own[stalled].sum() / own.sum()) if own.any() else 0.0 for own in (lift, moment))
-    reversed_area, area = (float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled))
-    return reversed_area, area, of_lift, of_moment, float(left.min(initial=math.inf, where=~reverse))
+    of_lift, of_moment = (
+        float(own[stalled].sum() / own.sum()) if own.any() else 0.0 for own in (lift, moment)
+    )
+    reversed_area, area = (
+        float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled)
+    )
+    return (
+        reversed_area,
+        area,
+        of_lift,
+        of_moment,
+        float(left.min(initial=math.inf, where=~reverse)),
+    )
 
 
 def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
@@ -148,7 +164,9 @@ def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, flo
 def own_stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
     """`stalled_parts` on the azimuths of the trim."""
     disk, e = problem.disk, elements
-    margin = stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall)
+    margin = stall_margins(
+        e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall
+    )
     _, area, _, moment, _ = areas(disk, e, margin)
     return area, moment
 

@@ -29,7 +29,15 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from rotor.aero.look_up import look_up, places_along_alpha, places_along_mach
-from rotor.airfoil.stall_onset import LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, NEGATIVE, POSITIVE, SLOPE, TRAVEL
+from rotor.airfoil.stall_onset import (
+    LAG_PRESSURE,
+    LAG_SEPARATION,
+    LAG_VORTEX,
+    NEGATIVE,
+    POSITIVE,
+    SLOPE,
+    TRAVEL,
+)
 from rotor.engine.memory import around, onto_coarser, onto_finer
 from rotor.support.arrays import Array, Integers
 from rotor.support.compiled import compiled
@@ -126,7 +134,11 @@ def lag_weights(h: Any, weights: Any) -> None:
         q *= 2.0 - q
         q *= 2.0 - q
         share = q / step
-        weights[_DECAY, k], weights[_BEGIN, k], weights[_END, k] = 1.0 - q, share - (1.0 - q), 1.0 - share
+        weights[_DECAY, k], weights[_BEGIN, k], weights[_END, k] = (
+            1.0 - q,
+            share - (1.0 - q),
+            1.0 - share,
+        )
 
 
 @_compile
@@ -159,7 +171,9 @@ def window(y: float) -> Any:
         return 1.0, 0.0
     if u >= 1.0:
         return 0.0, 0.0
-    return 1.0 - u * u * (3.0 - 2.0 * u), -6.0 * u * (1.0 - u) / (GONE - FULL) * (1.0 if y > 0.0 else -1.0)
+    return 1.0 - u * u * (3.0 - 2.0 * u), -6.0 * u * (1.0 - u) / (GONE - FULL) * (
+        1.0 if y > 0.0 else -1.0
+    )
 
 
 @_compile
@@ -210,7 +224,17 @@ def _along(element: int, data: Any, cells: Any, places: Any, x: Any, slopes: boo
     for which in range(2):
         share = data.weight[element] if which == 1 else 1.0
         if share > 0.0:
-            look_up(data.tables, (0, 2), data.section[element, which], cells, places, share, slopes, fm, 0)
+            look_up(
+                data.tables,
+                (0, 2),
+                data.section[element, which],
+                cells,
+                places,
+                share,
+                slopes,
+                fm,
+                0,
+            )
     fm[0, -1], fm[3, -1] = fm[0, 0], fm[3, 0]
 
 
@@ -233,7 +257,9 @@ def empty_lags(elements: int, azimuths: int) -> Any:
 
 
 @_compile
-def stall_states(element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any, lags: Any, shown: Any) -> None:
+def stall_states(
+    element: int, x: Any, mach: Any, data: Any, slopes: bool, added: Any, lags: Any, shown: Any
+) -> None:
     """One element: `ADDED`, (3, azimuths), and `STATES`, (4, azimuths), from x and M, (azimuths,) each.
 
     lags: `empty_lags` all elements, filled where slopes are asked for, else for none.
@@ -248,7 +274,8 @@ def stall_states(element: int, x: Any, mach: Any, data: Any, slopes: bool, added
     onto_finer(x, steps, v[_X])
     onto_finer(mach, steps, v[_MACH])
     numbers = data.numbers[element]
-    unit = math.pi / fine / (data.half_chord[element] * data.tip_mach)  # Travel over the Mach numbers at its ends.
+    # Travel over the Mach numbers at its ends.
+    unit = math.pi / fine / (data.half_chord[element] * data.tip_mach)
     middle = v[_OF_N, :fine]
     for k in range(fine):
         middle[k] = 0.5 * (v[_MACH, k] + v[_MACH, k + 1])
@@ -284,19 +311,33 @@ def stall_states(element: int, x: Any, mach: Any, data: Any, slopes: bool, added
     for o in range(len(ADDED)):
         onto_coarser(v[_OF_N + o], steps, added[o])
     for k in range(n):
-        for state, value in ((SEPARATION, _SEPARATED), (VORTEX, _VORTEX), (POSITION, _GONE_BY), (ONSET_GATE, _GATED)):
+        for state, value in (
+            (SEPARATION, _SEPARATED),
+            (VORTEX, _VORTEX),
+            (POSITION, _GONE_BY),
+            (ONSET_GATE, _GATED),
+        ):
             shown[state, k] = v[value, k * steps]
     if slopes:
         decays, factors, at = lags[1][element], lags[2][element], lags[3][element]
         lags[0][element] = _ALL_LINKS if most > 0.0 else len(_ATTACHED)
         _lag_slopes(rows, static, lagged, h, weights, v, decays, factors)
         if most > 0.0:
-            decays[2], at[_BEFORE], at[_FIRST], at[_TURN] = weights[2, _DECAY], earlier[0][0], earlier[0][1], fine - 1
-            _shed_links(rows, unit, weights[2, _DECAY], h[2, 1], v, earlier, factors[len(_ATTACHED) :])
+            decays[2], at[_BEFORE], at[_FIRST], at[_TURN] = (
+                weights[2, _DECAY],
+                earlier[0][0],
+                earlier[0][1],
+                fine - 1,
+            )
+            _shed_links(
+                rows, unit, weights[2, _DECAY], h[2, 1], v, earlier, factors[len(_ATTACHED) :]
+            )
 
 
 @_compile
-def _lag_slopes(rows: Any, static: Any, lagged: Any, h: Any, weights: Any, v: Any, decays: Any, factors: Any) -> None:
+def _lag_slopes(
+    rows: Any, static: Any, lagged: Any, h: Any, weights: Any, v: Any, decays: Any, factors: Any
+) -> None:
     """Decays and links of the lags of attached flow, and the links of their sum."""
     n = h.shape[2]
     decays[0], decays[1] = weights[0, _DECAY], weights[1, _DECAY]
@@ -390,7 +431,9 @@ def _sum_links(rows: Any, static: Any, v: Any, out: Any) -> None:
 
 
 @_compile
-def _shed_links(rows: Any, unit: float, decay: Any, by_mach: Any, v: Any, earlier: Any, out: Any) -> None:
+def _shed_links(
+    rows: Any, unit: float, decay: Any, by_mach: Any, v: Any, earlier: Any, out: Any
+) -> None:
     """Links to C_nᵛ, τ and what is added with them.
 
     by_mach: slopes of the steps over T_v by the sum of their Mach numbers.
@@ -398,7 +441,13 @@ def _shed_links(rows: Any, unit: float, decay: Any, by_mach: Any, v: Any, earlie
     n, (low, share, turns) = len(decay), earlier
     g, s, fed, held = v[_GATED], v[_DISTANCE], v[_FED], v[_HELD]
     for k in range(n):
-        slope, by_m, x, cv, tau = rows[SLOPE, 0, k], rows[SLOPE, 1, k], v[_X, k], v[_VORTEX, k], v[_GONE_BY, k]
+        slope, by_m, x, cv, tau = (
+            rows[SLOPE, 0, k],
+            rows[SLOPE, 1, k],
+            v[_X, k],
+            v[_VORTEX, k],
+            v[_GONE_BY, k],
+        )
         edge = POSITIVE if v[_X_LAGGED, k] > 0.0 else NEGATIVE
         _, by_x, by_onset = _gate(v[_X_LAGGED, k], rows[POSITIVE, 0, k], rows[NEGATIVE, 0, k])
         now, by_now, _, _ = _kirchhoff(v[_SEPARATED, k])
@@ -408,8 +457,16 @@ def _shed_links(rows: Any, unit: float, decay: Any, by_mach: Any, v: Any, earlie
         late = -g[k] * (g[j + 1] - g[j]) / (s[j + 1] - s[j])  # Slope of h by the distance there.
         first, y, whole = low[1, k], share[1, k], turns[1, k]
         wide, rise = s[first + 1] - s[first], g[first + 1] - g[first]
-        there, inside, half = per * (g[first] + y * rise), per * (y * g[first] + 0.5 * y * y * rise), 0.5 * y * y
-        root, held_mean, grown = math.sqrt(decay[k]), 0.5 * (held[k] + held[k + 1]), fed[k + 1] - fed[k]
+        there, inside, half = (
+            per * (g[first] + y * rise),
+            per * (y * g[first] + 0.5 * y * y * rise),
+            0.5 * y * y,
+        )
+        root, held_mean, grown = (
+            math.sqrt(decay[k]),
+            0.5 * (held[k] + held[k + 1]),
+            fed[k + 1] - fed[k],
+        )
         by_step = -(decay[k] * cv + 0.5 * root * held_mean * grown) * by_mach[k]
         arm, by_arm = _ARM * (1.0 - math.cos(_PI * tau)), _ARM * _PI * math.sin(_PI * tau)
         factors = (

@@ -25,7 +25,13 @@ import numpy as np
 
 from rotor.aero.disk import Disk
 from rotor.airfoil.c81 import C81Block
-from rotor.airfoil.section_table import N_ALPHA, N_MACH, SectionTable, bicubic_coefficients, mach_nodes
+from rotor.airfoil.section_table import (
+    N_ALPHA,
+    N_MACH,
+    SectionTable,
+    bicubic_coefficients,
+    mach_nodes,
+)
 from rotor.airfoil.sections import Section
 from rotor.design.active_twist import HIGHEST
 from rotor.design.blade import Rotor
@@ -131,16 +137,27 @@ def _moment_tables(sections: tuple[Section, ...], only_mach: float | None) -> Ar
 @bytes_cache
 @read_only
 def build_torsion(
-    rotor: Rotor, disk: Disk, density: float, *, only_mach: float | None, swept: bool, highest: int, count: int = MODES
+    rotor: Rotor,
+    disk: Disk,
+    density: float,
+    *,
+    only_mach: float | None,
+    swept: bool,
+    highest: int,
+    count: int = MODES,
 ) -> BladeTorsion:
     """The torsion of the rotor's blade, which must have a structure, on a grid in air of a density [kg/m³].
 
     highest: harmonic; count: modes.
     """
-    torsion = _at_unit_density(rotor, disk, only_mach=only_mach, swept=swept, highest=highest, count=count)
+    torsion = _at_unit_density(
+        rotor, disk, only_mach=only_mach, swept=swept, highest=highest, count=count
+    )
     lighter = ("inertia", "coupling", "tension", "own_tension", "tip_mass")
     scaled = {name: getattr(torsion, name) / density for name in lighter}
-    return replace(torsion, **scaled, gain=torsion.gain * density, moment_unit=torsion.moment_unit * density)
+    return replace(
+        torsion, **scaled, gain=torsion.gain * density, moment_unit=torsion.moment_unit * density
+    )
 
 
 @bytes_cache
@@ -157,10 +174,14 @@ def _at_unit_density(
     frequency = modes.frequency / rotor.angular_speed
     inertia = structure.at(disk.r * radius, structure.torsional_inertia) * radius / unit
     root = 0.5 * (structure.clamp / radius + disk.root)
-    inner = float(structure.at(root * radius, structure.torsional_inertia)) * (disk.root * radius - structure.clamp)
+    inner = float(structure.at(root * radius, structure.torsional_inertia)) * (
+        disk.root * radius - structure.clamp
+    )
     inertia[0] += max(inner, 0.0) / (unit * disk.dr[0])
     chord = disk.half_solidity * 2.0 * math.pi / rotor.blades
-    behind = np.maximum(disk.r - blade.tip_sweep_start, 0.0) * (math.tan(blade.tip_sweep) if swept else 0.0)
+    behind = np.maximum(disk.r - blade.tip_sweep_start, 0.0) * (
+        math.tan(blade.tip_sweep) if swept else 0.0
+    )
     mass = structure.at(disk.r * radius, structure.mass_per_length)
     tension, own_tension = _tension(modes, disk, radius)
     return BladeTorsion(

@@ -10,7 +10,9 @@ from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.section import FLOW, FR, FX, FZ
 from rotor.support.arrays import Array, ShortRepr
 
-Unknown = Literal["collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "flap_1c", "flap_1s", "lambda0"]
+Unknown = Literal[
+    "collective", "cyclic_1c", "cyclic_1s", "shaft_tilt", "coning", "flap_1c", "flap_1s", "lambda0"
+]
 """Name of one of the eight quantities, any of which a trim may solve for."""
 
 

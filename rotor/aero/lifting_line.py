@@ -91,7 +91,9 @@ class WakeCourse(DiskFlow):
     @property
     def skewed(self) -> float:
         """0 for the helix of hover, 1 for the wake of forward flight, and smoothly between; C_T is 2 λ0 V."""
-        share = min(self.mu_x / (SKEWED * math.sqrt(max(abs(self.lambda0), 1e-9) * self.speed)), 1.0)
+        share = min(
+            self.mu_x / (SKEWED * math.sqrt(max(abs(self.lambda0), 1e-9) * self.speed)), 1.0
+        )
         return share * share * (3.0 - 2.0 * share)
 
     @property
@@ -100,7 +102,9 @@ class WakeCourse(DiskFlow):
         chi = math.atan2(self.mu_x, -self.axial if self.lambda0 < 0.0 else self.axial)
         skew, old, share = math.tan(0.5 * chi), 0.5 * chi, self.beddoes
         fitted = 1.0 + MEAN_OUTWARD * skew, STEEPNESS * skew, skew
-        first, aft, outward = (a + share * (b - a) for a, b in zip(fitted, (1.0, old, old), strict=True))
+        first, aft, outward = (
+            a + share * (b - a) for a, b in zip(fitted, (1.0, old, old), strict=True)
+        )
         return first, aft, outward
 
     def flapping(self, psi: Array) -> Array:
@@ -116,7 +120,9 @@ class WakeCourse(DiskFlow):
         )
         t = np.tile(ages, len(psi_b))
         _sink(begin, y, t, (self.mu_x, self.mu_z, self.lambda0, self.skewed, *self.descent), z)
-        return np.stack([begin + self.mu_x * t[:, None], y, z], axis=-1).reshape(*released.shape, len(r), 3)
+        return np.stack([begin + self.mu_x * t[:, None], y, z], axis=-1).reshape(
+            *released.shape, len(r), 3
+        )
 
 
 def tip_core(chord: float, thrust: float, blades: int, reynolds: float) -> tuple[float, float]:
@@ -124,7 +130,8 @@ def tip_core(chord: float, thrust: float, blades: int, reynolds: float) -> tuple
 
     With Squire's a1 = 1e-4 (Leishman, ch. 10). chord: at 0.9 R, over R; thrust: C_T; reynolds: ΩR²/ν.
     """
-    grown = 1.0 + 1e-4 * 2.0 * thrust / blades * reynolds  # Γ of the tip vortex is near 2 C_T ΩR²/N_b.
+    # Γ of the tip vortex is near 2 C_T ΩR²/N_b.
+    grown = 1.0 + 1e-4 * 2.0 * thrust / blades * reynolds
     return (0.2 * chord) ** 2, 4.0 * 1.25643 * grown / reynolds
 
 
@@ -180,7 +187,15 @@ class LiftingLine:
 
 @compiled(error_model="numpy", fastmath=True)
 def _sum_lines(
-    targets: Any, nodes: Any, ends: Any, core: Any, young: Any, places: Any, shares: Any, first: int, out: Any
+    targets: Any,
+    nodes: Any,
+    ends: Any,
+    core: Any,
+    young: Any,
+    places: Any,
+    shares: Any,
+    first: int,
+    out: Any,
 ) -> None:
     """Add the downwash of unit lines at targets to rows of `out`, (rows, azimuths, targets).
 
@@ -215,9 +230,11 @@ def _sum_lines(
             down = -(cx * u[t] + cy * v[t] + cz * w[t]) * near
             induced[t] = down / (a * b * math.sqrt(c2 * c2 + (fixed + own * young[t])))
         here = there
-        for k in range(2):  # One after the other: as two sums in one loop they might be the same, so not in vectors.
+        # One after the other: as two sums in one loop they might be the same, so not in vectors.
+        for k in range(2):
             row, column, share = places[s, 0], (first - places[s, 1 + k]) % m, shares[s, k]
-            for t in range(n if share else 0):  # As rows of their own they would be counted by references: slower.
+            # As rows of their own they would be counted by references: slower.
+            for t in range(n if share else 0):
                 out[row, column, t] += share * induced[t]
 
 
@@ -275,7 +292,8 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     """The lines of the wakes of blades at azimuths psi."""
     picked, (near, turns, step) = line.edges[_groups(line.panels)], _steps(line)
     begin, end = turns * step, LENGTH / max(course.speed, LENGTH / OLDEST)
-    end = max(end, begin + FAR_STEP)  # The last piece is as long as is left: nothing jumps with the number of pieces.
+    # The last piece is as long as is left: nothing jumps with the number of pieces.
+    end = max(end, begin + FAR_STEP)
     last = np.append(np.arange(begin, end - 1e-9, FAR_STEP)[1:], end)
     young = course.nodes(psi, np.arange(near * PIECES + 1) * step / PIECES, line.edges)
     half = 0.5 * (young[:, 0] + young[:, 1])  # What the first piece sheds, at its middle.
@@ -283,8 +301,15 @@ def build_wake(line: LiftingLine, course: WakeCourse, psi: Array) -> WakeLines:
     nodes = [each.reshape(len(psi), -1, 3) for each in (young, half, old)]
     tip = np.sqrt(course.core[0] + course.core[1] * (np.arange(near, turns) + 0.5) * step)
     far = np.maximum(tip[:, None], np.where(picked < ROOT, ROOT_CORE, FAR_CORE)) ** 4
-    lattice, core = _lattice(line, len(last)), np.append([-1.0, LEAST_CORE**4, SHED_CORE**4], far).astype(np.float32)
-    return WakeLines(**vars(lattice), nodes=np.concatenate(nodes, axis=1, dtype=np.float32), core=core[lattice.cores])
+    lattice, core = (
+        _lattice(line, len(last)),
+        np.append([-1.0, LEAST_CORE**4, SHED_CORE**4], far).astype(np.float32),
+    )
+    return WakeLines(
+        **vars(lattice),
+        nodes=np.concatenate(nodes, axis=1, dtype=np.float32),
+        core=core[lattice.cores],
+    )
 
 
 @bytes_cache
@@ -295,14 +320,22 @@ def _lattice(line: LiftingLine, pieces: int) -> _Lattice:
     rows = tuple(np.cumsum([0, n + 1, n, n, strips + 1, strips, strips + 1]).tolist())
     young = np.arange((near * PIECES + 1) * (n + 1)).reshape(-1, n + 1)
     half = young[-1:] + n + 1
-    old = half[0, -1] + 1 + np.arange((turns - near + 1 + pieces) * (strips + 1)).reshape(-1, strips + 1)
+    old = (
+        half[0, -1]
+        + 1
+        + np.arange((turns - near + 1 + pieces) * (strips + 1)).reshape(-1, strips + 1)
+    )
     parts = list[Any]()
 
-    def add(a: Integers, b: Integers, row: int, core: Any, ages: Any, shares: Any, order: Any = "C") -> None:
+    def add(
+        a: Integers, b: Integers, row: int, core: Any, ages: Any, shares: Any, order: Any = "C"
+    ) -> None:
         """Lines from a to b, (ages, radii), age by age, or radius by radius with "F"; core: place of it."""
         columns: list[Any] = [a, b, core, row + np.arange(a.shape[1])]
         columns += (np.reshape(each, (-1, 1)) for each in (*ages, *np.transpose(shares)))
-        parts.append(np.stack([np.broadcast_to(each, a.shape).ravel(order) for each in columns], axis=1))
+        parts.append(
+            np.stack([np.broadcast_to(each, a.shape).ravel(order) for each in columns], axis=1)
+        )
 
     def trailers(nodes: Integers, row: int, core: Any, ages: Any, shares: Any) -> None:
         """Lines from age to age."""
@@ -335,13 +368,22 @@ def _lattice(line: LiftingLine, pieces: int) -> _Lattice:
     trailers(old[count:], rows[5], core[-1], (0, 0), np.array([[1.0, 0.0]]))
     ends, cores, places, shares = np.split(np.concatenate(parts), [2, 3, 6], axis=1)
     ends, cores, places = (each.astype(np.int64) for each in (ends, cores[:, 0], places))
-    return _Lattice(ends, cores, places, shares.astype(np.float32), rows, _strip_weights(line).T.astype(np.float32))
+    return _Lattice(
+        ends,
+        cores,
+        places,
+        shares.astype(np.float32),
+        rows,
+        _strip_weights(line).T.astype(np.float32),
+    )
 
 
 def _by_panels(line: LiftingLine, wake: WakeLines, rows: Singles) -> Singles:
     """From sums by line, (rows, azimuths, targets), to those by panel, (panels, azimuths, targets)."""
     near_edges, near_panels, bound, edges, strips, mean, end = (*wake.rows,)
-    panels = rows[near_panels:bound] + rows[bound:edges] + np.diff(rows[near_edges:near_panels], axis=0)
+    panels = (
+        rows[near_panels:bound] + rows[bound:edges] + np.diff(rows[near_edges:near_panels], axis=0)
+    )
     grouped = rows[strips:mean] + np.diff(rows[edges:strips], axis=0)
     grouped += np.diff(rows[mean:end].sum(axis=1), axis=0)[:, None] / line.azimuths
     return panels + (wake.strips @ grouped.reshape(len(grouped), -1)).reshape(panels.shape)
@@ -370,7 +412,13 @@ def mean_influence(line: LiftingLine, course: WakeCourse) -> Array:
     at = line.azimuths // line.blades * np.arange(line.blades)
     wake, targets = build_wake(line, course, line.psi[at]), _on_blades(line, course, np.zeros(1))
     order = np.arange(line.blades)
-    return _seen(line, wake, targets, at, order, np.zeros(line.panels, np.int64), own_core(line, course)).sum(axis=1).T
+    return (
+        _seen(
+            line, wake, targets, at, order, np.zeros(line.panels, np.int64), own_core(line, course)
+        )
+        .sum(axis=1)
+        .T
+    )
 
 
 def at_points(line: LiftingLine, course: WakeCourse, points: Array, normals: Array) -> Array:
@@ -379,10 +427,21 @@ def at_points(line: LiftingLine, course: WakeCourse, points: Array, normals: Arr
     points, normals: (targets, 3), in the axes of `geometry`. (positions, targets, points of the line): one value for
     each position of the rotor until a blade takes the place of the one before; their mean is the mean over time.
     """
-    step, targets = line.azimuths // line.blades, np.concatenate([points, normals], axis=1).T.astype(np.float32)
-    wake, off, places = build_wake(line, course, line.psi), np.full(len(points), -1), step * np.arange(line.blades)
-    downwash = (_seen(line, wake, targets, k + places, k + places, off, np.zeros(0)) for k in range(step))
-    return np.stack([by_panel.reshape(-1, len(points)).T for by_panel in downwash]).astype(np.float64)
+    step, targets = (
+        line.azimuths // line.blades,
+        np.concatenate([points, normals], axis=1).T.astype(np.float32),
+    )
+    wake, off, places = (
+        build_wake(line, course, line.psi),
+        np.full(len(points), -1),
+        step * np.arange(line.blades),
+    )
+    downwash = (
+        _seen(line, wake, targets, k + places, k + places, off, np.zeros(0)) for k in range(step)
+    )
+    return np.stack([by_panel.reshape(-1, len(points)).T for by_panel in downwash]).astype(
+        np.float64
+    )
 
 
 def _seen(
@@ -403,8 +462,19 @@ def _seen(
     for b, (first, place) in enumerate(zip(azimuths.tolist(), places.tolist(), strict=True)):
         core, on_it = np.full(targets.shape[1], LEAST_CORE**4, dtype=np.float32), seen == b
         core[on_it] = young[: on_it.sum()]
-        _sum_lines(targets, wake.nodes[place], wake.ends, wake.core, core, wake.places, wake.shares, first, rows)
-        rows[wake.rows[2] : wake.rows[3], first, on_it] = 0.0  # A blade's own bound line has no downwash on it.
+        _sum_lines(
+            targets,
+            wake.nodes[place],
+            wake.ends,
+            wake.core,
+            core,
+            wake.places,
+            wake.shares,
+            first,
+            rows,
+        )
+        # A blade's own bound line has no downwash on it.
+        rows[wake.rows[2] : wake.rows[3], first, on_it] = 0.0
     return _by_panels(line, wake, rows) / (4.0 * math.pi)
 
 
@@ -443,22 +513,32 @@ def lattice_lag(line: LiftingLine, course: WakeCourse, harmonic: Array) -> NDArr
     wake, groups = build_wake(line, straight, np.zeros(1)), _groups(line.panels)
     row, rows = wake.places[:, 0], wake.rows
     young, old = (
-        np.flatnonzero((row >= rows[k]) & (row < rows[k + 1])).reshape(-1, rows[k + 1] - rows[k]) for k in (1, 4)
+        np.flatnonzero((row >= rows[k]) & (row < rows[k + 1])).reshape(-1, rows[k + 1] - rows[k])
+        for k in (1, 4)
     )
     strip = np.searchsorted(groups, np.arange(line.panels), side="right") - 1
-    shed = np.concatenate([young, old[:, strip]]).T  # (panels, lines): the lines of all panels are of the same ages.
-    age = -wake.nodes[0, wake.ends[shed], 2].mean(axis=-1, dtype=np.float64)  # It sinks by 1 in an age of 1.
+    shed = np.concatenate(
+        [young, old[:, strip]]
+    ).T  # (panels, lines): the lines of all panels are of the same ages.
+    # It sinks by 1 in an age of 1.
+    age = -wake.nodes[0, wake.ends[shed], 2].mean(axis=-1, dtype=np.float64)
     x, core = line.r[:, None] * age, wake.core[shed].astype(np.float64)
     core = np.where(core < 0.0, own_core(line, course)[:, None], core)
     gain = -wake.shares[shed] * (x / (2.0 * math.pi * np.sqrt(np.square(x * x) + core)))[..., None]
     step = 2.0 * math.pi / line.azimuths
     turned = np.exp(-1j * step * np.multiply.outer(harmonic, wake.places[shed[0], 1:]))
-    return np.asarray(gain.reshape(line.panels, -1) @ turned.reshape(len(harmonic), -1).T, dtype=np.complex128)
+    return np.asarray(
+        gain.reshape(line.panels, -1) @ turned.reshape(len(harmonic), -1).T, dtype=np.complex128
+    )
 
 
 def shed_correction(line: LiftingLine, course: WakeCourse, half_chord: Array) -> Array:
     """To be added to A/D between azimuths of a panel, (panels, azimuths, azimuths); half_chord: b/R, (panels,)."""
-    n, r, b = np.arange((line.azimuths + 1) // 2, dtype=np.float64), line.r[:, None], half_chord[:, None]
+    n, r, b = (
+        np.arange((line.azimuths + 1) // 2, dtype=np.float64),
+        line.r[:, None],
+        half_chord[:, None],
+    )
     missing = (1.0 / theodorsen(n * b / r) - 1.0) / (2.0 * math.pi * b)
     beyond = 1j * n[1:] / (2.0 * math.pi * r) * exp1(1j * n[1:] * 2.0 * math.pi * TURNS)
     missing[:, 1:] -= beyond  # Further back than the shed lines reach.

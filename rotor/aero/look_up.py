@@ -29,7 +29,8 @@ def places_along_alpha(alpha: Any, offset: float, cell: Any, place: Any) -> None
     """Cells of the table and the places in them, from 0 to 1, of one row about the section's own chord."""
     for j in range(len(alpha)):
         x = (wrapped(alpha[j] - offset) + _PI) * INVERSE_ALPHA
-        i = max(min(np.int32(x), np.int32(N_ALPHA - 1)), np.int32(0))  # Never outside, also where α is not a number.
+        # Never outside, also where α is not a number.
+        i = max(min(np.int32(x), np.int32(N_ALPHA - 1)), np.int32(0))
         cell[j] = i
         place[j] = x - i
 
@@ -56,7 +57,11 @@ def surface(a: Any, u: float, v: float) -> tuple[float, float, float]:
     s1 = (3.0 * a[3, 1] * u + 2.0 * a[2, 1]) * u + a[1, 1]
     s2 = (3.0 * a[3, 2] * u + 2.0 * a[2, 2]) * u + a[1, 2]
     s3 = (3.0 * a[3, 3] * u + 2.0 * a[2, 3]) * u + a[1, 3]
-    return ((c3 * v + c2) * v + c1) * v + c0, ((s3 * v + s2) * v + s1) * v + s0, (3.0 * c3 * v + 2.0 * c2) * v + c1
+    return (
+        ((c3 * v + c2) * v + c1) * v + c0,
+        ((s3 * v + s2) * v + s1) * v + s0,
+        (3.0 * c3 * v + 2.0 * c2) * v + c1,
+    )
 
 
 @_compile
@@ -66,7 +71,15 @@ def _blend(out: Any, row: int, j: int, share: float, value: float) -> None:
 
 @_compile
 def look_up(
-    tables: Any, kinds: Any, which: int, cells: Any, places: Any, share: float, slopes: bool, out: Any, row: int
+    tables: Any,
+    kinds: Any,
+    which: int,
+    cells: Any,
+    places: Any,
+    share: float,
+    slopes: bool,
+    out: Any,
+    row: int,
 ) -> None:
     """Blend coefficients kinds[0] to before kinds[1] of a section, with slopes by α [rad] and Mach, from out[row] on.
 
@@ -77,11 +90,15 @@ def look_up(
         at = row + 3 * (k - kinds[0])
         if slopes:
             for j in range(places.shape[1]):
-                value, by_u, by_v = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
+                value, by_u, by_v = surface(
+                    tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j]
+                )
                 _blend(out, at, j, share, value)
                 _blend(out, at + 1, j, share, by_u * INVERSE_ALPHA)
                 _blend(out, at + 2, j, share, by_v * places[2, j])
         else:
             for j in range(places.shape[1]):
-                value, _, _ = surface(tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j])
+                value, _, _ = surface(
+                    tables[which, cells[0, j], cells[1, j], k], places[0, j], places[1, j]
+                )
                 _blend(out, at, j, share, value)

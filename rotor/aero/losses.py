@@ -24,11 +24,19 @@ def prandtl(f: ArrayLike) -> tuple[Array, Array]:
     """F = (2/π) arccos(e^−f), eq. (3.18), and dF/df, for f > 0."""
     decay = np.exp(-np.asarray(f, dtype=float))
     # 1 − e^(−2f) by expm1: exact as f → 0, where the slope grows without bound.
-    return 2.0 / np.pi * np.arccos(decay), 2.0 / np.pi * decay / np.sqrt(-np.expm1(-2.0 * np.asarray(f)))
+    return 2.0 / np.pi * np.arccos(decay), 2.0 / np.pi * decay / np.sqrt(
+        -np.expm1(-2.0 * np.asarray(f))
+    )
 
 
 def loss_factor(
-    r: ArrayLike, inflow: ArrayLike, blades: int, root_cutout: float, *, tip: bool = True, hub: bool = True
+    r: ArrayLike,
+    inflow: ArrayLike,
+    blades: int,
+    root_cutout: float,
+    *,
+    tip: bool = True,
+    hub: bool = True,
 ) -> tuple[Array, Array]:
     """F = F_tip F_hub and dF/dλ at r = y/R for a total inflow ratio λ; shapes broadcast.
 
@@ -40,7 +48,9 @@ def loss_factor(
     signed = np.where(np.abs(inflow) < _SMALLEST_INFLOW, _SMALLEST_INFLOW, inflow)
     factor = np.ones(np.broadcast(r, signed).shape)
     slope = np.zeros_like(factor)
-    spacings = ([0.5 * blades * (1.0 - r)] if tip else []) + ([0.5 * HUB_FACTOR * (r - root_cutout)] if hub else [])
+    spacings = ([0.5 * blades * (1.0 - r)] if tip else []) + (
+        [0.5 * HUB_FACTOR * (r - root_cutout)] if hub else []
+    )
     for spacing in spacings:
         f = np.minimum(spacing / np.abs(signed), 700.0)
         end, end_slope = prandtl(f)
@@ -62,7 +72,9 @@ def _fall(f: float) -> float:
     Plain multiplications, so that the compiler makes vector code of a loop over it; the C library's expm1 is none.
     """
     x = -f / 1024.0
-    growth = x * (1.0 + x / 2.0 * (1.0 + x / 3.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0)))))
+    growth = x * (
+        1.0 + x / 2.0 * (1.0 + x / 3.0 * (1.0 + x / 4.0 * (1.0 + x / 5.0 * (1.0 + x / 6.0))))
+    )
     for _ in range(10):  # e^2x − 1 = (e^x − 1)(e^x + 1)
         growth = growth * (2.0 + growth)
     return -growth
@@ -90,7 +102,9 @@ def _multiply_end(spacing: float, inflow: Any, factor: Any, slope: Any) -> None:
 
 
 @_compile
-def mean_loss_factor(r: Any, inflow: Any, slopes: Any, blade: tuple[float, float], tip: bool, hub: bool) -> Any:
+def mean_loss_factor(
+    r: Any, inflow: Any, slopes: Any, blade: tuple[float, float], tip: bool, hub: bool
+) -> Any:
     """Means around the azimuth of `loss_factor`, of ∂F/∂λ and of the slopes that follow, (2 + slopes, elements).
 
     inflow: λ, (elements, azimuths); slopes: ∂λ by anything, (slopes, elements, azimuths); blade: number (times a
@@ -122,4 +136,6 @@ def tip_factor(r: ArrayLike, inflow: float, blades: float) -> tuple[Array, Array
     f = np.minimum(0.5 * blades * (1.0 - np.asarray(r, dtype=float)) / size, 700.0)
     factor, slope = prandtl(np.maximum(f, 1e-12))
     free = factor > SMALLEST_TIP_FACTOR
-    return np.where(free, factor, SMALLEST_TIP_FACTOR), np.where(free, slope * (-f / size) * np.sign(inflow), 0.0)
+    return np.where(free, factor, SMALLEST_TIP_FACTOR), np.where(
+        free, slope * (-f / size) * np.sign(inflow), 0.0
+    )

@@ -110,7 +110,8 @@ def glauert_inflow(ct: float, mu_x: float, mu_z: float) -> tuple[float, float]:
         slope = speed + inflow * (axial + inflow) / speed
         low, high = (low, inflow) if error > 0.0 else (inflow, high)
         step = error / slope if slope > 0.0 else math.inf
-        if axial < 0.0 and not low <= inflow - step <= high:  # In fast descent λ V(λ) falls on part of the way.
+        # In fast descent λ V(λ) falls on part of the way.
+        if axial < 0.0 and not low <= inflow - step <= high:
             step = inflow - 0.5 * (low + high)
         inflow -= step
         if abs(step) <= 1e-15 + 1e-14 * abs(inflow):

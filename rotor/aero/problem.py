@@ -96,7 +96,9 @@ class Problem:
     def inflow_terms(self) -> InflowTerms:
         """The inflow model on this disk."""
         models = self.design.models
-        losses = Losses(tip=models.tip_loss, hub=models.hub_loss, on=models.loss_on, spacing=self.tip_spacing)
+        losses = Losses(
+            tip=models.tip_loss, hub=models.hub_loss, on=models.loss_on, spacing=self.tip_spacing
+        )
         terms = self.inflow.on(self.disk, self.course, losses)
         return terms.unsteady(self.half_chord) if self.unsteady else terms
 
@@ -118,9 +120,13 @@ class Problem:
         data = self.unsteady_data(plain, data) if self.unsteady else data
         if bending is None:
             return data
-        return BentData(data, coupling=bending.coupling, reference=bending.reference, share=bending.share)
+        return BentData(
+            data, coupling=bending.coupling, reference=bending.reference, share=bending.share
+        )
 
-    def unsteady_data(self, section: SectionData, within: SectionData | StallingData) -> UnsteadyData:
+    def unsteady_data(
+        self, section: SectionData, within: SectionData | StallingData
+    ) -> UnsteadyData:
         """What a section in unsteady flow needs beside the channels; within: data of the section in it."""
         arm = 0.5 * self.half_chord + (0.0 if self.torsion is None else self.torsion.lag)
         mass = math.pi * section.half_solidity * self.half_chord
@@ -150,7 +156,11 @@ class Problem:
             unloaded=_ALL_LOADED if unloaded is None else np.ascontiguousarray(unloaded[:, ::step]),
             added=NO_INCREMENTS,
             scatter=self.scatter,
-            **(NO_MOMENT if torsion is None else {name: getattr(torsion, name) for name in NO_MOMENT}),
+            **(
+                NO_MOMENT
+                if torsion is None
+                else {name: getattr(torsion, name) for name in NO_MOMENT}
+            ),
         )
 
 
@@ -165,24 +175,44 @@ def build_problem(design: Design) -> Problem:
     shown = {"swept": swept, "surface": models.has("surface_drag"), "fine_tip": inflow.fine_tip}
     shown["stalls"] = models.stall
     reynolds = design.reynolds_per_metre if rotor.blade.follows_reynolds else 0.0
-    disk = build_disk(rotor, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown)
+    disk = build_disk(
+        rotor, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown
+    )
     flow = expected_flow(design)
-    download = design.fuselage.hover_download if models.has("download") and condition.stand is None else 0.0
+    download = (
+        design.fuselage.hover_download
+        if models.has("download") and condition.stand is None
+        else 0.0
+    )
     weight = design.weight_coefficient
     if download:
         weight *= 1.0 + download * (max(flow.axial, 0.0) / flow.speed) ** 2
     weight += down
-    twist, flap = design.twist(disk.r), flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight)
+    twist, flap = (
+        design.twist(disk.r),
+        flap_dynamics(rotor, condition.density, blade_weight=models.blade_weight),
+    )
     waves, *rates = _pitch_waves(design, disk)
     torsion = bending = None
     if models.bending and design.flaps and not design.hovering and can_bend(rotor):
         bending = build_bending(
-            rotor, disk, condition.density, modes=MODES, harmonics=BENDING_HARMONICS, reference=REFERENCE_COLLECTIVE
+            rotor,
+            disk,
+            condition.density,
+            modes=MODES,
+            harmonics=BENDING_HARMONICS,
+            reference=REFERENCE_COLLECTIVE,
         )
     highest = TORSION_HARMONICS if bending is None else BENDING_HARMONICS
     if models.has("elastic_twist") and rotor.blade.structure is not None:
         torsion = build_torsion(
-            rotor, disk, condition.density, only_mach=only_mach, swept=swept, highest=highest, count=TORSION_MODES
+            rotor,
+            disk,
+            condition.density,
+            only_mach=only_mach,
+            swept=swept,
+            highest=highest,
+            count=TORSION_MODES,
         )
     stall = _stall_data(design, disk, inflow)
     return Problem(
@@ -205,7 +235,9 @@ def build_problem(design: Design) -> Problem:
         stall=stall,
         unsteady=models.has("unsteady") and not design.hovering,
         wave_rates=(rates[0], rates[1]),
-        given_torsion=np.zeros(0) if torsion is None else given_torsion(torsion, twist, waves, rates[1]),
+        given_torsion=np.zeros(0)
+        if torsion is None
+        else given_torsion(torsion, twist, waves, rates[1]),
     )
 
 
@@ -215,7 +247,11 @@ def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | 
     if not models.has("dynamic_stall") or design.hovering or not inflow.pointwise:
         return None
     numbers, tables = build_onset(disk, None if models.compressibility else LOW_MACH)
-    own = {"numbers": numbers, "tables": tables, "half_chord": 0.5 * (rotor.blade.chord(disk.r) / rotor.radius)}
+    own = {
+        "numbers": numbers,
+        "tables": tables,
+        "half_chord": 0.5 * (rotor.blade.chord(disk.r) / rotor.radius),
+    }
     return StallData(**own, section=disk.section, weight=disk.weight, tip_mach=design.tip_mach)
 
 
@@ -229,7 +265,9 @@ def check_azimuths(design: Design) -> None:
     active = () if design.active_twist is None else design.active_twist.harmonics
     highest = max((harmonic.per_rev for harmonic in (*active, *design.pitch_per_rev)), default=0)
     if 2 * highest >= (azimuths := grid_of(design)[1]):
-        raise ValueError(f"{highest}/rev needs more than {2 * highest} azimuths, not {azimuths}: ask for more")
+        raise ValueError(
+            f"{highest}/rev needs more than {2 * highest} azimuths, not {azimuths}: ask for more"
+        )
 
 
 def on_azimuths(problem: Problem, azimuths: int) -> Problem:
@@ -239,13 +277,17 @@ def on_azimuths(problem: Problem, azimuths: int) -> Problem:
     waves, *rates = _pitch_waves(problem.design, disk)
     air = replace(air_motion(problem.design, disk), joined=problem.air.joined)
     unloaded = _unloaded(problem.design, disk)
-    return replace(problem, disk=disk, air=air, waves=waves, wave_rates=(rates[0], rates[1]), unloaded=unloaded)
+    return replace(
+        problem, disk=disk, air=air, waves=waves, wave_rates=(rates[0], rates[1]), unloaded=unloaded
+    )
 
 
 def _pitch_waves(design: Design, disk: Disk) -> list[Array]:
     """`Problem.waves` and its first two derivatives by ψ."""
     given, none = design.pitch_waves, np.zeros((1, 1))
-    return [sum((wave(disk.r, disk.psi, order) for wave in given), start=none) for order in range(3)]
+    return [
+        sum((wave(disk.r, disk.psi, order) for wave in given), start=none) for order in range(3)
+    ]
 
 
 def _unloaded(design: Design, disk: Disk) -> Booleans | None:

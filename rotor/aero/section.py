@@ -126,7 +126,11 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
     n, m = c.shape[1:]
     f, d = np.zeros((4, n, m)), np.zeros((20, n if slopes else 0, m))
     s = np.empty((5, n if flow else 0, m))
-    elastic, masked, scattered = len(data.moment_gain) > 0, len(data.unloaded) > 0, len(data.scatter) > 0
+    elastic, masked, scattered = (
+        len(data.moment_gain) > 0,
+        len(data.unloaded) > 0,
+        len(data.scatter) > 0,
+    )
     w, alpha, mach = np.empty((_DRAG_BY + 4, m)), np.empty(m), np.empty(m)
     cells, places, coeffs = np.empty((2, m), np.int32), np.empty((3, m)), np.zeros((12, m))
     for i in range(n):
@@ -136,7 +140,9 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         _mach_numbers((t, p, r), data.cos_sweep[i], data.sin_sweep[i], data.tip_mach, mach)
         by_angle, speed, between = slopes or flow or scattered, w[_U], False
         places_along_mach(mach, cells[1], places[1], places[2])
-        _coefficients(data, i, alpha, (0, 1 if data.yawed else 2), by_angle, cells, places, coeffs, 0)
+        _coefficients(
+            data, i, alpha, (0, 1 if data.yawed else 2), by_angle, cells, places, coeffs, 0
+        )
         if data.yawed:
             speed, between = w[_V], _streamwise(c[TH, i], t, p, r, w)
             _coefficients(data, i, w[_STREAM], (1, 2), by_angle, cells, places, coeffs, 3)
@@ -174,7 +180,11 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         if flow:
             for j in range(m):  # Rows assigned as a whole take numba longer to compile.
                 s[ALPHA, i, j], s[MACH, i, j] = alpha[j], mach[j]
-                s[CL, i, j], s[CD, i, j], s[CD_MACH, i, j] = coeffs[0, j], coeffs[3, j], coeffs[5, j]
+                s[CL, i, j], s[CD, i, j], s[CD_MACH, i, j] = (
+                    coeffs[0, j],
+                    coeffs[3, j],
+                    coeffs[5, j],
+                )
         if masked:
             _unload(data.unloaded[i], c[TH, i], data.inertia[i] if elastic else 0.0, i, f, d, s)
     return f, d, s
@@ -204,10 +214,15 @@ def arctangent(p: float, t: float) -> float:
     z = (small - large if beyond else small) / (large + small if beyond else large)
     s = z * z
     above = (
-        (((-8.750608600031904e-1 * s - 1.615753718733365e1) * s - 7.500855792314705e1) * s - 1.228866684490136e2) * s
+        (
+            ((-8.750608600031904e-1 * s - 1.615753718733365e1) * s - 7.500855792314705e1) * s
+            - 1.228866684490136e2
+        )
+        * s
     ) - 6.485021904942025e1
     below = (
-        (((s + 2.485846490142306e1) * s + 1.650270098316989e2) * s + 4.328810604912903e2) * s + 4.853903996359137e2
+        (((s + 2.485846490142306e1) * s + 1.650270098316989e2) * s + 4.328810604912903e2) * s
+        + 4.853903996359137e2
     ) * s + 1.945506571482614e2
     angle = z + z * s * (above / below)
     angle = angle + _EIGHTH_TURN if beyond else angle
@@ -269,7 +284,15 @@ def _other_edge(w: Any, coeffs: Any) -> None:
 
 @_inline
 def _coefficients(
-    data: Any, i: int, angle: Any, kinds: Any, slopes: bool, cells: Any, places: Any, coeffs: Any, row: int
+    data: Any,
+    i: int,
+    angle: Any,
+    kinds: Any,
+    slopes: bool,
+    cells: Any,
+    places: Any,
+    coeffs: Any,
+    row: int,
 ) -> None:
     """Coefficients of one row from kinds[0] to before kinds[1], with C_m beside C_l, blended from the two sections at
     its element, each followed by ∂/∂α and ∂/∂M; cells (2, azimuths), places (3, azimuths): along Mach they are there.
@@ -323,9 +346,16 @@ _Z, _X, _N, _R = 0, 5, 10, 16
 
 
 @_inline
-def _force_slopes(c: Any, i: int, data: Any, between: bool, mach: Any, coeffs: Any, w: Any, d: Any) -> None:
+def _force_slopes(
+    c: Any, i: int, data: Any, between: bool, mach: Any, coeffs: Any, w: Any, d: Any
+) -> None:
     """Derivatives of F_z, F_x and F_r of one row, from those of ½σU F C_l and ½σV C_d."""
-    m, cos, sin, square = w.shape[1], data.cos_sweep[i], data.sin_sweep[i], data.tip_mach * data.tip_mach
+    m, cos, sin, square = (
+        w.shape[1],
+        data.cos_sweep[i],
+        data.sin_sweep[i],
+        data.tip_mach * data.tip_mach,
+    )
     t, p, r, half = c[UT, i], c[UP, i], c[UR, i], data.half_solidity[i]
     for j in range(m):
         by_normal = square / mach[j] * (t[j] * cos - r[j] * sin)
@@ -342,7 +372,12 @@ def _force_slopes(c: Any, i: int, data: Any, between: bool, mach: Any, coeffs: A
         _resolve(t, p, lift, drag, d[_Z + k, i], d[_X + k, i])
         if data.yawed:
             _times(drag, r, d[_R + k, i])
-    for row, own, sign in ((_Z + UT, _LIFT, 1.0), (_X + UP, _LIFT, 1.0), (_Z + UP, _DRAG, -1.0), (_X + UT, _DRAG, 1.0)):
+    for row, own, sign in (
+        (_Z + UT, _LIFT, 1.0),
+        (_X + UP, _LIFT, 1.0),
+        (_Z + UP, _DRAG, -1.0),
+        (_X + UT, _DRAG, 1.0),
+    ):
         for j in range(m):
             d[row, i, j] += sign * w[own, j]
     for j in range(m if data.yawed else 0):
@@ -350,7 +385,9 @@ def _force_slopes(c: Any, i: int, data: Any, between: bool, mach: Any, coeffs: A
 
 
 @_inline
-def _by_air(t: Any, p: Any, half: float, speed: Any, value: Any, coeffs: Any, w: Any, out: Any) -> None:
+def _by_air(
+    t: Any, p: Any, half: float, speed: Any, value: Any, coeffs: Any, w: Any, out: Any
+) -> None:
     """Derivatives of ½σU C by θ, U_T, U_P and U_R, with ∂α/∂U_T = U_P/U² and ∂α/∂U_P = −U_T/U²."""
     for j in range(len(t)):
         w[_ONE, j] = half * coeffs[1, j] / speed[j]
@@ -366,7 +403,9 @@ def _by_air(t: Any, p: Any, half: float, speed: Any, value: Any, coeffs: Any, w:
 
 
 @_inline
-def _by_yawed_air(t: Any, p: Any, r: Any, half: float, between: bool, coeffs: Any, w: Any, out: Any) -> None:
+def _by_yawed_air(
+    t: Any, p: Any, r: Any, half: float, between: bool, coeffs: Any, w: Any, out: Any
+) -> None:
     """Those of ½σV C_d: ∂α'/∂θ = C/G, by air (C U_P + U_R² sin θ, −C U_T − U_R² cos θ, −S U_R)/(G V²)."""
     for j in range(len(t)):
         w[_ONE, j] = math.copysign(half, w[_C, j]) * coeffs[4, j] / (w[_V, j] * w[_G, j])
@@ -384,7 +423,13 @@ def _by_yawed_air(t: Any, p: Any, r: Any, half: float, between: bool, coeffs: An
         out[UT, j] += w[_ONE, j] * (r[j] * r[j]) * w[_SIN, j]
         out[UP, j] -= w[_ONE, j] * (r[j] * r[j]) * w[_COS, j]
     for j in range(len(t) if between else 0):
-        turn = math.copysign(half, w[_C, j]) * w[_V, j] * coeffs[_TURN, j] * r[j] / (w[_G, j] * w[_G, j] * w[_G, j])
+        turn = (
+            math.copysign(half, w[_C, j])
+            * w[_V, j]
+            * coeffs[_TURN, j]
+            * r[j]
+            / (w[_G, j] * w[_G, j] * w[_G, j])
+        )
         out[TH, j] -= turn * r[j] * w[_S, j]
         out[UT, j] += turn * r[j] * w[_COS, j]
         out[UP, j] += turn * r[j] * w[_SIN, j]
@@ -394,7 +439,13 @@ def _by_yawed_air(t: Any, p: Any, r: Any, half: float, between: bool, coeffs: An
 @_inline
 def _moment_slopes(c: Any, i: int, data: Any, coeffs: Any, w: Any, d: Any) -> None:
     """Derivatives of M of one row, those of −x F_z from those of F_z; coeffs: C_m and its derivatives are spent."""
-    m, gain, damping, lag, inertia = w.shape[1], data.moment_gain[i], data.damping[i], data.lag[i], data.inertia[i]
+    m, gain, damping, lag, inertia = (
+        w.shape[1],
+        data.moment_gain[i],
+        data.damping[i],
+        data.lag[i],
+        data.inertia[i],
+    )
     for k in range(6, 9):
         for j in range(m):
             coeffs[k, j] *= gain * w[_U, j] * w[_U, j]
@@ -442,10 +493,14 @@ def of_double_angle(angle: float) -> Any:
     y = (angle - turns * 1.5707963267948966) - turns * 6.123233995736766e-17
     s = y * y
     sine = 1.58962301576546568e-10 * s - 2.50507477628578073e-8
-    sine = ((sine * s + 2.75573136213857245e-6) * s - 1.98412698295895386e-4) * s + 8.33333333332211859e-3
+    sine = (
+        (sine * s + 2.75573136213857245e-6) * s - 1.98412698295895386e-4
+    ) * s + 8.33333333332211859e-3
     sine = y + y * s * (sine * s - 1.66666666666666307e-1)
     cosine = -1.13585365213876817e-11 * s + 2.08757008419747317e-9
-    cosine = ((cosine * s - 2.75573141792967388e-7) * s + 2.48015872888517045e-5) * s - 1.38888888888730564e-3
+    cosine = (
+        (cosine * s - 2.75573141792967388e-7) * s + 2.48015872888517045e-5
+    ) * s - 1.38888888888730564e-3
     cosine = 1.0 - 0.5 * s + s * s * (cosine * s + 4.16666666666665929e-2)
     return sign * 2.0 * sine * cosine, sign * (1.0 - 2.0 * sine * sine)
 
@@ -468,13 +523,19 @@ def stall_angles(mach: Any, section: Any, weight: Any, offset: Any, stall: Any) 
                 row = stall[section[i, which]]
                 for j in range(m):
                     k, v = min(cell[j], int(top)), place[j]
-                    out[0, i, j] += share * (row[0, k] * (1.0 - v) + row[0, k + 1] * v + offset[i, which])
-                    out[1, i, j] += share * (row[1, k] * (1.0 - v) + row[1, k + 1] * v + offset[i, which])
+                    out[0, i, j] += share * (
+                        row[0, k] * (1.0 - v) + row[0, k + 1] * v + offset[i, which]
+                    )
+                    out[1, i, j] += share * (
+                        row[1, k] * (1.0 - v) + row[1, k + 1] * v + offset[i, which]
+                    )
     return out
 
 
 @_compile
-def stall_margins(alpha: Any, mach: Any, u_t: Any, section: Any, weight: Any, offset: Any, stall: Any) -> Any:
+def stall_margins(
+    alpha: Any, mach: Any, u_t: Any, section: Any, weight: Any, offset: Any, stall: Any
+) -> Any:
     """Angle of attack left before stall [rad], (elements, azimuths): negative when stalled, π/2 in reverse flow.
 
     stall: as in `stall_angles`.

@@ -27,7 +27,20 @@ from rotor.aero.dynamic_stall import (
 )  # fmt: skip
 from rotor.aero.inflow.interface import SectionInterface
 from rotor.aero.look_up import wrapped
-from rotor.aero.section import FR, FX, FZ, LOSS, TH, UP, UR, UT, M, SectionData, angles_of_attack, of_double_angle
+from rotor.aero.section import (
+    FR,
+    FX,
+    FZ,
+    LOSS,
+    TH,
+    UP,
+    UR,
+    UT,
+    M,
+    SectionData,
+    angles_of_attack,
+    of_double_angle,
+)
 from rotor.airfoil.stall_onset import ZERO
 from rotor.engine.memory import LagFactors, Lags
 from rotor.support.arrays import Array
@@ -44,7 +57,17 @@ class StallingData(NamedTuple):
 
 
 @_compile
-def _inputs(c: Any, i: int, section: Any, stall: Any, inputs: Any, y: Any, weight: Any, zero: Any, right: Any) -> None:
+def _inputs(
+    c: Any,
+    i: int,
+    section: Any,
+    stall: Any,
+    inputs: Any,
+    y: Any,
+    weight: Any,
+    zero: Any,
+    right: Any,
+) -> None:
     """x and M of one row, y from zero lift, its weight with slope; slopes of α and M by the channels in `right`."""
     cos, sin, tip = section.cos_sweep[i], section.sin_sweep[i], stall.tip_mach
     numbers = stall.numbers[i]
@@ -80,7 +103,11 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
     n, m = c.shape[1:]
     out, states = np.zeros((3, n, m)), np.zeros((len(STATES), n, m))
     elements = n if slopes else 0
-    turn, by_angle, lags = np.zeros((3, 4, elements, m)), np.empty((elements, m)), empty_lags(elements, m)
+    turn, by_angle, lags = (
+        np.zeros((3, 4, elements, m)),
+        np.empty((elements, m)),
+        empty_lags(elements, m),
+    )
     right = np.zeros((len(INPUTS), c.shape[0], elements, m))
     inputs, y, weight, zero = np.empty((len(INPUTS), m)), np.empty(m), np.empty((2, m)), np.empty(m)
     inside, falls = weight[0], weight[1]
@@ -95,7 +122,10 @@ def _added(c: Any, data: Any, slopes: bool) -> Any:
             out[2, i, j] = inside[j] * added[2, j]
         for j in range(m if slopes else 0):
             sin, cos = of_double_angle(0.5 * inputs[0, j])
-            lift, drag = added[0, j] * cos + added[1, j] * sin, added[0, j] * sin - added[1, j] * cos
+            lift, drag = (
+                added[0, j] * cos + added[1, j] * sin,
+                added[0, j] * sin - added[1, j] * cos,
+            )
             by_angle[i, j] = inside[j] + y[j] * falls[j]  # Of x = y w(y).
             turn[0, 0, i, j], turn[0, 1, i, j] = inside[j] * cos, inside[j] * sin
             turn[1, 0, i, j], turn[1, 1, i, j] = inside[j] * sin, -inside[j] * cos
@@ -148,7 +178,9 @@ def _memory(c: Array, data: StallingData, forces: int) -> LagFactors:
 def stalling_interface(inner: SectionInterface) -> SectionInterface:
     """The interface of a section with dynamic stall; partial derivatives are those at what is added."""
 
-    def section(c: Array, data: StallingData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+    def section(
+        c: Array, data: StallingData, slopes: bool, flow: bool
+    ) -> tuple[Array, Array, Array]:
         added, states = added_to(c, data)
         f, d, s = inner.section(c, data.section._replace(added=added), slopes, flow)
         return f, d, _with_shown(s, states, added) if flow else s

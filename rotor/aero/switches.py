@@ -28,7 +28,9 @@ def parse_switches(text: str) -> tuple[str, ...]:
     for name in names:
         if name.replace("_", "-") not in flags:
             hint = did_you_mean(name, flags) or ":"
-            raise ValueError(f"switch {name!r} is not known{hint} use {', '.join(flags)}, separated by commas")
+            raise ValueError(
+                f"switch {name!r} is not known{hint} use {', '.join(flags)}, separated by commas"
+            )
     return tuple(flags[name.replace("_", "-")] for name in names)
 
 

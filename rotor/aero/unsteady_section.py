@@ -113,7 +113,11 @@ def _push(c: Any, first: int, blade: Any, inertia: Any, unloaded: Any, f: Any) -
             t, p, rate, turning = c[UT, i, j], c[UP, i, j], c[RATE, i, j], c[first + DTH, i, j]
             sine, cosine = of_double_angle(0.5 * c[TH, i, j])
             ahead, _, _, _, suction, _, _, u = _ahead(b, rate, t, p)
-            rise = c[first + DUT, i, j] * sine - c[first + DUP, i, j] * cosine + (t * cosine + p * sine) * rate
+            rise = (
+                c[first + DUT, i, j] * sine
+                - c[first + DUP, i, j] * cosine
+                + (t * cosine + p * sine) * rate
+            )
             normal = h * (rise + a * turning)
             along = 0.5 * h * b * suction * rate * rate
             f[FZ, i, j] += normal * cosine + along * sine
@@ -121,7 +125,8 @@ def _push(c: Any, first: int, blade: Any, inertia: Any, unloaded: Any, f: Any) -
             if elastic:
                 f[M, i, j] += 0.5 * h * b * (u * rate - 0.25 * b * turning) - a * normal
                 twice = of_double_angle(c[TH, i, j] + ahead)[0] - of_double_angle(c[TH, i, j])[0]
-                f[M, i, j] += 0.5 * inertia[i] * twice  # The propeller moment is that of the pitch itself.
+                # The propeller moment is that of the pitch itself.
+                f[M, i, j] += 0.5 * inertia[i] * twice
 
 
 @_compile
@@ -144,7 +149,15 @@ def _ahead_slopes(first: int, i: int, q: Any, d: Any, rows: Any, place: Any, out
 
 @_compile
 def _push_slopes(
-    c: Any, first: int, blade: Any, inertia: Any, unloaded: Any, d: Any, rows: Any, place: Any, out: Any
+    c: Any,
+    first: int,
+    blade: Any,
+    inertia: Any,
+    unloaded: Any,
+    d: Any,
+    rows: Any,
+    place: Any,
+    out: Any,
 ) -> None:
     """Partial derivatives of all forces by all channels; rows: those of the section within, place: those here."""
     half_chord, arm, mass = blade
@@ -172,7 +185,9 @@ def _push_slopes(
             by_t, by_p = half * q[5, j] * rate * rate, half * q[6, j] * rate * rate
             for o in range(2):
                 up, on = (cosine, sine) if o == 0 else (sine, -cosine)
-                full[o, TH, j] = h * by_theta * up + (along * cosine - normal * sine if o == 0 else 0.0)
+                full[o, TH, j] = h * by_theta * up + (
+                    along * cosine - normal * sine if o == 0 else 0.0
+                )
                 if o == 1:
                     full[o, TH, j] += normal * cosine + along * sine
                 full[o, UT, j] = h * cosine * rate * up + by_t * on
@@ -205,12 +220,24 @@ def unsteady_interface(inner: SectionInterface) -> SectionInterface:
     """The interface of a section in unsteady attached flow."""
     first, channels = inner.channels, inner.channels + len(RATES)
     turned = sorted({force for force, channel in inner.pairs if channel == TH})
-    new = [(force, channel) for force in turned for channel in (UT, UP, RATE) if (force, channel) not in inner.pairs]
+    new = [
+        (force, channel)
+        for force in turned
+        for channel in (UT, UP, RATE)
+        if (force, channel) not in inner.pairs
+    ]
     pairs = (*inner.pairs, *new, *((force, first + rate) for force in _PUSHED for rate in RATES))
-    rows, place = places_of(inner.pairs, inner.forces, first), places_of(pairs, inner.forces, channels)
+    rows, place = (
+        places_of(inner.pairs, inner.forces, first),
+        places_of(pairs, inner.forces, channels),
+    )
 
-    def section(c: Array, data: UnsteadyData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
-        f, d, s = inner.section(at_three_quarters(c[:first], data.half_chord), data.within, slopes, flow)
+    def section(
+        c: Array, data: UnsteadyData, slopes: bool, flow: bool
+    ) -> tuple[Array, Array, Array]:
+        f, d, s = inner.section(
+            at_three_quarters(c[:first], data.half_chord), data.within, slopes, flow
+        )
         of = (data.half_chord, data.arm, data.mass), data.section.inertia, data.section.unloaded
         _push(c, first, *of, f)
         partials = np.empty((len(pairs), *(c.shape[1:] if slopes else (0, c.shape[2]))))
@@ -222,7 +249,9 @@ def unsteady_interface(inner: SectionInterface) -> SectionInterface:
         """That of the section within, its pitch turned."""
         assert inner.memory is not None
         within = inner.memory(at_three_quarters(c[:first], data.half_chord), data.within)
-        right = np.concatenate([within.right, np.zeros((len(within.right), len(RATES), *c.shape[1:]))], axis=1)
+        right = np.concatenate(
+            [within.right, np.zeros((len(within.right), len(RATES), *c.shape[1:]))], axis=1
+        )
         for channel, slope in zip((UT, UP, RATE), slopes_ahead(c, data.half_chord), strict=True):
             right[:, channel] += within.right[:, TH] * slope
         return LagFactors(within.left, within.lags, right)

@@ -69,7 +69,9 @@ class _Cards:
 
     def next_card(self) -> str:
         if self.at >= len(self.lines):
-            raise ValueError(f"{self.name} ends after line {self.at}, at {self.place}: {self.remedy}")
+            raise ValueError(
+                f"{self.name} ends after line {self.at}, at {self.place}: {self.remedy}"
+            )
         self.at += 1
         return self.lines[self.at - 1]
 
@@ -78,7 +80,9 @@ class _Cards:
 
     def number(self, text: str) -> float:
         if (value := number_of(text)) is None:
-            raise self.fail(f"{text!r} is not a number{'' if self.by_blanks else ': fields are seven characters wide'}")
+            raise self.fail(
+                f"{text!r} is not a number{'' if self.by_blanks else ': fields are seven characters wide'}"
+            )
         return value
 
     def row(self, count: int, with_angle: bool) -> tuple[float, Array]:
@@ -100,7 +104,9 @@ class _Cards:
             if first and with_angle:
                 angle = self.number(head)
             elif head.strip():
-                raise self.fail(f"{head!r} stands where a continuation card has blanks: {self.remedy}")
+                raise self.fail(
+                    f"{head!r} stands where a continuation card has blanks: {self.remedy}"
+                )
             here = min(_PER_CARD, count - len(values))
             if len(body) > here * _FIELD:
                 raise self.fail(f"more than {here} values: {self.remedy}")
@@ -137,7 +143,11 @@ def _title(cards: _Cards) -> tuple[str, list[int]]:
             fields, title = words[-6:], " ".join(words[:-6])[:30]
         if len(fields) == 6 and all(map(str.isdecimal, fields)):
             counts = [int(field) for field in fields]
-            if min(counts[0], counts[2]) >= 1 and min(counts[1], counts[3]) >= 2 and max(counts) < 1000:
+            if (
+                min(counts[0], counts[2]) >= 1
+                and min(counts[1], counts[3]) >= 2
+                and max(counts) < 1000
+            ):
                 cards.at = cards.title = at
                 return title.strip(), counts
     cards.at = 1
@@ -187,11 +197,14 @@ def _field(value: float, decimals: int) -> str:
         text = f"{value:{_FIELD}.{fitting}f}"
         if len(text) == _FIELD:
             return text
-    raise ValueError(f"{value:g} does not fit into a field of seven characters: C81 holds -99999 to 999999")
+    raise ValueError(
+        f"{value:g} does not fit into a field of seven characters: C81 holds -99999 to 999999"
+    )
 
 
 def _cards_of(head: str, values: Array, decimals: int) -> list[str]:
-    texts = [_field(round(float(v), decimals) + 0.0, decimals) for v in values]  # + 0.0 turns -0.0 into 0.0.
+    # + 0.0 turns -0.0 into 0.0.
+    texts = [_field(round(float(v), decimals) + 0.0, decimals) for v in values]
     starts = range(0, len(texts), _PER_CARD)
     return [(head if s == 0 else " " * _FIELD) + "".join(texts[s : s + _PER_CARD]) for s in starts]
 

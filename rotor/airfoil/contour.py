@@ -34,7 +34,11 @@ _FIVE_DIGIT = {  # Middle digits: where the camber is: (m, k1) for a design lift
 def is_naca(name: str) -> bool:
     """Whether `naca_points` has a formula for `name`, such as naca0012, naca2412 or naca23012."""
     match = re.fullmatch(r"naca(\d{4}|\d{5})", name)
-    return match is not None and (len(match[1]) == 4 or match[1][1:3] in _FIVE_DIGIT) and int(match[1][-2:]) > 0
+    return (
+        match is not None
+        and (len(match[1]) == 4 or match[1][1:3] in _FIVE_DIGIT)
+        and int(match[1][-2:]) > 0
+    )
 
 
 def naca_points(name: str) -> Array:
@@ -43,7 +47,9 @@ def naca_points(name: str) -> Array:
     Raises ValueError for a name outside the two families.
     """
     if not is_naca(name):
-        raise ValueError(f"{name!r} is not a four- or five-digit NACA section: write for example naca0012 or naca23012")
+        raise ValueError(
+            f"{name!r} is not a four- or five-digit NACA section: write for example naca0012 or naca23012"
+        )
     digits = name.removeprefix("naca")
     x = 0.5 * (1.0 - np.cos(np.linspace(0.0, np.pi, (POINTS + 1) // 2)))
     roots = np.stack([np.sqrt(x), x, x**2, x**3, x**4])
@@ -77,7 +83,16 @@ def _five_digit(digits: str, x: Array) -> tuple[Array, Array]:
 
 _SIX_SERIES = ("naca63a015", "naca64208", "naca64118", "naca64528", "naca64935")
 _TABBED = ("naca23012tab", "naca23012tab-model")
-SECTION_NAMES = ("sc1095", "sc1094r8", "naca0012", *_SIX_SERIES, "goe429", "naca0015re242k", "oa209", *_TABBED)
+SECTION_NAMES = (
+    "sc1095",
+    "sc1094r8",
+    "naca0012",
+    *_SIX_SERIES,
+    "goe429",
+    "naca0015re242k",
+    "oa209",
+    *_TABBED,
+)
 _OUTLINES = {"naca23012tab-model": "naca23012tab"}
 """Outlines of sections that have that of another: the same at another Reynolds number."""
 
@@ -97,7 +112,9 @@ class Contour:
 
 def read_contour(path: Path, name: str | None = None) -> Contour:
     """Read a coordinate file, see `parse_contour`."""
-    return replace(parse_contour(path.read_text(encoding="utf-8"), path.name), name=name or path.stem)
+    return replace(
+        parse_contour(path.read_text(encoding="utf-8"), path.name), name=name or path.stem
+    )
 
 
 def parse_contour(text: str, name: str) -> Contour:
@@ -138,7 +155,11 @@ def thickness_and_camber(contour: Contour) -> tuple[float, float, float]:
     upper = np.interp(x, contour.points[nose::-1, 0], contour.points[nose::-1, 1])
     lower = np.interp(x, contour.points[nose:, 0], contour.points[nose:, 1])
     thickest = int(np.argmax(upper - lower))
-    return float(upper[thickest] - lower[thickest]), float(x[thickest]), float(np.max(np.abs(upper + lower)) / 2)
+    return (
+        float(upper[thickest] - lower[thickest]),
+        float(x[thickest]),
+        float(np.max(np.abs(upper + lower)) / 2),
+    )
 
 
 def resample(contour: Contour, n: int) -> Contour:
@@ -148,7 +169,9 @@ def resample(contour: Contour, n: int) -> Contour:
     point (n - 1) / 2 is the nose on every section. Cubic splines through the given points carry the shape.
     """
     if n < 11 or n % 2 == 0:
-        raise ValueError(f"{n} points do not put one at the nose: give an odd number of at least 11")
+        raise ValueError(
+            f"{n} points do not put one at the nose: give an odd number of at least 11"
+        )
     steps = np.hypot(*np.diff(contour.points, axis=0).T)
     arc = np.concatenate(([0.0], np.cumsum(steps)))
     nose = arc[leading_edge_index(contour)]

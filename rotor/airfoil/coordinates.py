@@ -45,22 +45,34 @@ def read_coordinates(text: str, name: str) -> tuple[Array, str]:
     """
     points, lines, words = _rows(text, name)
     counts, left = points[0], len(points) - 1
-    if np.all(counts >= _LEAST_COUNT) and not np.any(counts % 1.0) and abs(counts.sum() - left) < 0.1 * left:
+    if (
+        np.all(counts >= _LEAST_COUNT)
+        and not np.any(counts % 1.0)
+        and abs(counts.sum() - left) < 0.1 * left
+    ):
         points[0] = np.inf  # Lednicer's: no point of the outline, whatever its unit.
-    chord = float(np.ptp(points[1:-1, 0]))  # The first or the last row may be a heading of two numbers, or a stray 0 0.
+    # The first or the last row may be a heading of two numbers, or a stray 0 0.
+    chord = float(np.ptp(points[1:-1, 0]))
     if not chord > 0.0:
-        raise ValueError(f"{name}: x is {points[1, 0]:g} in all rows: give `x y` of an outline, one point per line")
+        raise ValueError(
+            f"{name}: x is {points[1, 0]:g} in all rows: give `x y` of an outline, one point per line"
+        )
     runs = np.split(
-        np.arange(len(points)), 1 + np.flatnonzero(np.hypot(*np.diff(points, axis=0).T) > _SIDE_GAP * chord)
+        np.arange(len(points)),
+        1 + np.flatnonzero(np.hypot(*np.diff(points, axis=0).T) > _SIDE_GAP * chord),
     )
     starts = {int(run[0]) for run in runs}
     for at, number in words.items():
         if at not in starts:
-            raise ValueError(f"{name}, line {number}: text interrupts the points of one side: remove the line")
+            raise ValueError(
+                f"{name}, line {number}: text interrupts the points of one side: remove the line"
+            )
     runs = [run for k, run in enumerate(runs) if len(run) > 1 or 0 < k < len(runs) - 1]
     if len(runs) > 2:
         line = lines[int(min(runs[1:], key=len)[0])]
-        raise ValueError(f"{name}, line {line}: the outline jumps to this point: correct it, or {_ORDER}")
+        raise ValueError(
+            f"{name}, line {line}: the outline jumps to this point: correct it, or {_ORDER}"
+        )
     order = np.concatenate((runs[0][::-1], runs[1])) if len(runs) == 2 else runs[0]
     if not points[order[-1]].any() and _detours(points[order])[-1] > _ZERO_ROW_DETOUR * chord:
         order = order[:-1]
@@ -69,12 +81,17 @@ def read_coordinates(text: str, name: str) -> tuple[Array, str]:
     closed = _once(points[order], chord)
     loop = _from_trailing_edge(closed, chord)
     off = _detours(loop) > _POINT_DETOUR * chord
-    off[0] = off[-1] = off[int(np.argmin(loop[:, 0]))] = False  # A coarse outline turns back at nose and trailing edge.
+    # A coarse outline turns back at nose and trailing edge.
+    off[0] = off[-1] = off[int(np.argmin(loop[:, 0]))] = False
     if off.any():
         line = lines[int(np.argmin(np.hypot(*(points - loop[np.argmax(off)]).T)))]
-        raise ValueError(f"{name}, line {line}: the outline jumps to this point and back: correct it, or {_ORDER}")
+        raise ValueError(
+            f"{name}, line {line}: the outline jumps to this point and back: correct it, or {_ORDER}"
+        )
     loop, moved = _placed(loop, closed)
-    if np.hypot(*np.diff(loop, axis=0).T).sum() > _LONGEST_OUTLINE or _area(loop) < _LEAST_AREA * _thickest(loop):
+    if np.hypot(*np.diff(loop, axis=0).T).sum() > _LONGEST_OUTLINE or _area(
+        loop
+    ) < _LEAST_AREA * _thickest(loop):
         raise ValueError(f"{name} {_NOT_ROUND}")
     return loop, moved
 
@@ -109,13 +126,19 @@ def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:
         words = line.partition("#")[0].replace(";", " ").replace(", ", " ").split()
         if len(words) == 1:
             words = words[0].split(",")
-        values = [value for word in words if (value := number_of(word.removesuffix(","))) is not None]
+        values = [
+            value for word in words if (value := number_of(word.removesuffix(","))) is not None
+        ]
         if len(words) == len(values) and len(words) in ({2, 3} if not rows else {len(rows[0])}):
             rows.append(values)
             lines.append(number)
         elif words and rows:
-            if len(values) == len(words) or (values and len(words) == 2 and not words[0][0].isalpha()):
-                raise ValueError(f"{name}, line {number}: {line!r} is not `x y`: give two numbers per line")
+            if len(values) == len(words) or (
+                values and len(words) == 2 and not words[0][0].isalpha()
+            ):
+                raise ValueError(
+                    f"{name}, line {number}: {line!r} is not `x y`: give two numbers per line"
+                )
             between.setdefault(len(rows), number)
         if len(rows) > _MOST + 2:
             break
@@ -127,7 +150,9 @@ def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:
     if points.shape[1] == 3:
         flat = np.flatnonzero(np.ptp(points, axis=0) <= _SAME_POINT * np.ptp(points))
         if len(flat) != 1:
-            raise ValueError(f"{name} has three numbers a line, x y z, of no flat section: give `x y`")
+            raise ValueError(
+                f"{name} has three numbers a line, x y z, of no flat section: give `x y`"
+            )
         points = np.delete(points, flat, axis=1)
     return points, lines, between
 
@@ -135,7 +160,9 @@ def _rows(text: str, name: str) -> tuple[Array, list[int], dict[int, int]]:
 def _detours(loop: Array) -> Array:
     """By how much each point makes a closed line longer."""
     before, after = np.roll(loop, 1, axis=0), np.roll(loop, -1, axis=0)
-    return np.hypot(*(loop - before).T) + np.hypot(*(after - loop).T) - np.hypot(*(after - before).T)
+    return (
+        np.hypot(*(loop - before).T) + np.hypot(*(after - loop).T) - np.hypot(*(after - before).T)
+    )
 
 
 def _once(loop: Array, chord: float) -> Array:
@@ -150,7 +177,8 @@ def _from_trailing_edge(loop: Array, chord: float) -> Array:
     one, which becomes first and last."""
     x, step = loop[:, 0], np.roll(loop, -1, axis=0) - loop
     tail = x > x.max() - _TRAILING_EDGE * chord
-    across = tail & np.roll(tail, -1) & (step[:, 1] > np.abs(step[:, 0]))  # From this point to the next.
+    # From this point to the next.
+    across = tail & np.roll(tail, -1) & (step[:, 1] > np.abs(step[:, 0]))
     if not across.any():
         loop = np.roll(loop, -int(np.argmax(x)), axis=0)
         return np.concatenate((loop, loop[:1]))
@@ -174,4 +202,8 @@ def _thickest(loop: Array) -> float:
     nose = int(np.argmin(loop[:, 0]))
     place = np.linspace(float(loop[nose, 0]), float(loop[:, 0].max()), 201)
     upper, lower = (side[np.argsort(side[:, 0])] for side in (loop[: nose + 1], loop[nose:]))
-    return float(np.abs(np.interp(place, upper[:, 0], upper[:, 1]) - np.interp(place, lower[:, 0], lower[:, 1])).max())
+    return float(
+        np.abs(
+            np.interp(place, upper[:, 0], upper[:, 1]) - np.interp(place, lower[:, 0], lower[:, 1])
+        ).max()
+    )

@@ -37,18 +37,29 @@ _CL_SIN = (0.07290562895790871, 1.0548966550216816)
 _REVERSE_PEAK = 0.4137752069896611
 _REVERSE_WIDTH_DEG = 7.719281370720392
 _CD_COS = (1.1279, -0.0264, -1.03951, -0.02516, -0.0966)  # cd = sum c_k cos(k a), k from 0.
-_CM_SIN = (-0.58524, 0.14099, -0.03031, 0.04132)  # cm = sum m_k sin(k a), k from 1, about the quarter chord.
+# cm = sum m_k sin(k a), k from 1, about the quarter chord.
+_CM_SIN = (
+    -0.58524,
+    0.14099,
+    -0.03031,
+    0.04132,
+)
 Columns = tuple[Array, Array, Array]
 """cl, cd, cm."""
 
-NATIVE_MACH_LIMIT = 0.4  # Up to here XFOIL is used directly: compared with RANS, its drag is the better one.
-INCOMPRESSIBLE_MACH = 0.05  # Up to here a polar's Mach number says nothing about its Reynolds number.
+# Up to here XFOIL is used directly: compared with RANS, its drag is the better one.
+NATIVE_MACH_LIMIT = 0.4
+# Up to here a polar's Mach number says nothing about its Reynolds number.
+INCOMPRESSIBLE_MACH = 0.05
 BASE_MACH = 0.3  # The polar that is extended to higher Mach.
-LIFT_DIVERGENCE_MACH = 0.75  # The lift slope is constant above: Prandtl-Glauert would go to infinity.
+# The lift slope is constant above: Prandtl-Glauert would go to infinity.
+LIFT_DIVERGENCE_MACH = 0.75
 KORN_KAPPA = 0.86  # Technology factor of Korn's relation, fitted to the CR-166309 SC1095 deck.
 LINEAR_RISE_FROM = 0.2  # M - M_cr beyond which the wave drag rises linearly; the quartic is far too steep at M 0.9.
-FRICTION_REYNOLDS_POWER = -0.16  # Of tripped XFOIL cd at fixed Mach; Reynolds is proportional to Mach here.
-CAP_SHARPNESS = 8.0  # Exponent of the smooth cap beyond the polars; takes 1 % off at 75 % of the cap.
+# Of tripped XFOIL cd at fixed Mach; Reynolds is proportional to Mach here.
+FRICTION_REYNOLDS_POWER = -0.16
+# Exponent of the smooth cap beyond the polars; takes 1 % off at 75 % of the cap.
+CAP_SHARPNESS = 8.0
 
 # Largest lift coefficient of SC1095 against Mach: own tripped XFOIL to 0.4, then as read off RANS and deck.
 _CAP_MACH = (0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.0)
@@ -71,7 +82,9 @@ def wrap_coefficients(alpha: Array) -> tuple[Array, Array, Array]:
 
 def blend_weight(alpha: Array) -> Array:
     """Share of the closed form at `alpha` [rad]: 0 below 16 deg, 1 above 26 deg, a smoothstep between."""
-    t = np.clip((np.rad2deg(np.abs(alpha)) - BLEND_START_DEG) / (BLEND_END_DEG - BLEND_START_DEG), 0.0, 1.0)
+    t = np.clip(
+        (np.rad2deg(np.abs(alpha)) - BLEND_START_DEG) / (BLEND_END_DEG - BLEND_START_DEG), 0.0, 1.0
+    )
     return t * t * (3.0 - 2.0 * t)
 
 
@@ -80,9 +93,16 @@ def blend(alpha: Array, cl: Array, cd: Array, cm: Array) -> tuple[Array, Array, 
     weight = blend_weight(alpha)
     far_cl, far_cd, far_cm = wrap_coefficients(alpha)
     # A cd of zero weight has no effect: there the polar may have any value, and the series is negative.
-    log_near, log_far = np.log(np.where(weight < 1.0, cd, 1.0)), np.log(np.where(weight > 0.0, far_cd, 1.0))
+    log_near, log_far = (
+        np.log(np.where(weight < 1.0, cd, 1.0)),
+        np.log(np.where(weight > 0.0, far_cd, 1.0)),
+    )
     log_cd = (1.0 - weight) * log_near + weight * log_far
-    return (1.0 - weight) * cl + weight * far_cl, np.exp(log_cd), (1.0 - weight) * cm + weight * far_cm
+    return (
+        (1.0 - weight) * cl + weight * far_cl,
+        np.exp(log_cd),
+        (1.0 - weight) * cm + weight * far_cm,
+    )
 
 
 _LARGEST = 5.0
@@ -102,7 +122,9 @@ def on_run_time_grid(deck: C81Deck) -> C81Deck:
         moment = _block(deck.title, deck.cm, 2) if deck.cm else None
     except ValueError:
         moment = None
-    return C81Deck(deck.title, _block(deck.title, deck.cl, 0), _block(deck.title, deck.cd, 1), moment)
+    return C81Deck(
+        deck.title, _block(deck.title, deck.cl, 0), _block(deck.title, deck.cd, 1), moment
+    )
 
 
 def _block(title: str, block: C81Block, kind: int) -> C81Block:
@@ -136,7 +158,9 @@ def _block(title: str, block: C81Block, kind: int) -> C81Block:
             round(mach[0] / MACH_STEP + 0.499), min(int(mach[-1] / MACH_STEP + 1e-9), N_MACH) + 1
         )
         if len(grid) < 2:
-            raise ValueError(f"{title}: Mach {mach[0]:g}…{mach[-1]:g} is too narrow a range: cover at least 0.1")
+            raise ValueError(
+                f"{title}: Mach {mach[0]:g}…{mach[-1]:g} is too narrow a range: cover at least 0.1"
+            )
         grid = grid.astype(np.float64)
         least, values = values.min(), _through_knots(mach, values, grid)
         mach, values = grid, np.maximum(values, least) if kind == 1 else values
@@ -154,7 +178,9 @@ def _through_knots(mach: Array, values: Array, grid: Array) -> Array:
         return made
     share = np.stack([np.interp(grid, mach[inside], one) for one in np.eye(int(inside.sum()))])
     for _ in range(_CORRECTIONS):
-        slopes = np.asarray(scipy.interpolate.PchipInterpolator(grid, made, axis=1).derivative()(grid))
+        slopes = np.asarray(
+            scipy.interpolate.PchipInterpolator(grid, made, axis=1).derivative()(grid)
+        )
         slopes[:, [0, -1]] = 0.0  # Zero slope at both ends, as in `section_table`.
         curve = scipy.interpolate.CubicHermiteSpline(grid, made, slopes, axis=1)
         made = made + (values[:, inside] - np.asarray(curve(mach[inside]))) @ share
@@ -174,7 +200,9 @@ def _whole_circle(alpha: Array, values: Array, kind: int) -> tuple[Array, Array]
     if kind != 1:
         return nodes, (1.0 - weight) * measured + weight * far
     # In the logarithm, so that drag stays positive. Short of 20 deg the closed form is too low, even negative.
-    return nodes, np.exp((1.0 - weight) * np.log(measured) + weight * np.log(np.maximum(far, measured.min())))
+    return nodes, np.exp(
+        (1.0 - weight) * np.log(measured) + weight * np.log(np.maximum(far, measured.min()))
+    )
 
 
 @dataclass(frozen=True)
@@ -192,13 +220,17 @@ class SectionTraits:
 
     def correct(self, mach: float, alpha: Array, polar: Columns, polar_mach: float) -> Columns:
         """(cl, cd, cm) at `mach` from the polar at `polar_mach`: as it is where both are one, else extended."""
-        return polar if polar_mach == mach else corrected_polar(mach, alpha, *polar, self, polar_mach)
+        return (
+            polar if polar_mach == mach else corrected_polar(mach, alpha, *polar, self, polar_mach)
+        )
 
 
 def smooth_cap(cl: Array, upper: float, lower: float, sharpness: float = CAP_SHARPNESS) -> Array:
     """`cl`, any shape, limited smoothly to -`lower`..`upper`: x / (1 + |x/cap|^n)^(1/n), n = `sharpness`."""
     cap = np.where(cl >= 0.0, upper, lower)
-    return np.asarray(cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64)
+    return np.asarray(
+        cl / (1.0 + np.abs(cl / cap) ** sharpness) ** (1.0 / sharpness), dtype=np.float64
+    )
 
 
 def prandtl_glauert(mach: float, base: float = BASE_MACH) -> float:
@@ -251,13 +283,32 @@ def corrected_polar(
 
 
 USED_ALPHA_DEG = 16.0  # Beyond, XFOIL jumps between separated branches; values are constant there and blended out.
-DECK_MACH = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0])
+DECK_MACH = np.array(
+    [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.55, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95, 1.0]
+)
 
 
 def deck_alpha_deg() -> Array:
     """The deck's angles [deg], at most 99: dense where flow separates and where reverse flow peaks."""
     reverse = [180.0, 177.5, 175.0, 172.5, 170.0, 167.5, 165.0, 160.0, 155.0, 150.0]
-    broadside = [140.0, 130.0, 120.0, 105.0, 90.0, 75.0, 60.0, 50.0, 40.0, 35.0, 30.0, 26.0, 24.0, 22.0, 20.0, 18.0]
+    broadside = [
+        140.0,
+        130.0,
+        120.0,
+        105.0,
+        90.0,
+        75.0,
+        60.0,
+        50.0,
+        40.0,
+        35.0,
+        30.0,
+        26.0,
+        24.0,
+        22.0,
+        20.0,
+        18.0,
+    ]
     far = np.array(reverse + broadside)
     near = np.concatenate((np.arange(-16.0, 8.0), np.arange(8.0, 16.0, 0.5), [16.0, 17.0]))
     return np.concatenate((-far, near, far[::-1]))
@@ -281,7 +332,11 @@ def assemble_deck(title: str, polars: Sequence[Polar], correct: Correction) -> C
     columns: list[Columns] = []
     for mach in DECK_MACH:
         native = mach <= ordered[-1].mach + 1e-9
-        here = _between(ordered, float(mach), alpha_deg[near]) if native else _at(base, alpha_deg[near])
+        here = (
+            _between(ordered, float(mach), alpha_deg[near])
+            if native
+            else _at(base, alpha_deg[near])
+        )
         inner = correct(float(mach), alpha[near], here, float(mach) if native else base.mach)
         full = [np.ones_like(alpha) for _ in range(3)]
         for whole, part in zip(full, inner, strict=True):
@@ -297,8 +352,12 @@ def assemble_deck(title: str, polars: Sequence[Polar], correct: Correction) -> C
 
 def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns:
     """The polars at a Mach number: the polar of that Mach, or linear between its neighbours; constant outside."""
-    slower = max((p for p in ordered if p.mach <= mach + 1e-9), key=lambda p: p.mach, default=ordered[0])
-    faster = min((p for p in ordered if p.mach >= mach - 1e-9), key=lambda p: p.mach, default=ordered[-1])
+    slower = max(
+        (p for p in ordered if p.mach <= mach + 1e-9), key=lambda p: p.mach, default=ordered[0]
+    )
+    faster = min(
+        (p for p in ordered if p.mach >= mach - 1e-9), key=lambda p: p.mach, default=ordered[-1]
+    )
     if faster.mach - slower.mach < 1e-6:
         return _at(slower, alpha_deg)
     share = min(max((mach - slower.mach) / (faster.mach - slower.mach), 0.0), 1.0)
@@ -309,9 +368,15 @@ def _between(ordered: Sequence[Polar], mach: float, alpha_deg: Array) -> Columns
 
 def _at(polar: Polar, alpha_deg: Array) -> Columns:
     """A polar at `alpha_deg`: gaps interpolated monotonically, values constant beyond USED_ALPHA_DEG."""
-    where = np.clip(alpha_deg, max(polar.alpha_deg[0], -USED_ALPHA_DEG), min(polar.alpha_deg[-1], USED_ALPHA_DEG))
+    where = np.clip(
+        alpha_deg,
+        max(polar.alpha_deg[0], -USED_ALPHA_DEG),
+        min(polar.alpha_deg[-1], USED_ALPHA_DEG),
+    )
     columns = polar.cl, np.log(polar.cd), polar.cm
-    cl, log_cd, cm = (np.asarray(scipy.interpolate.PchipInterpolator(polar.alpha_deg, y)(where)) for y in columns)
+    cl, log_cd, cm = (
+        np.asarray(scipy.interpolate.PchipInterpolator(polar.alpha_deg, y)(where)) for y in columns
+    )
     # Fully separated, the force stays normal to the chord: its drag grows with tan(alpha).
     beyond = np.deg2rad(np.maximum(np.abs(alpha_deg), USED_ALPHA_DEG))
     return cl, np.exp(log_cd) * np.tan(beyond) / np.tan(np.deg2rad(USED_ALPHA_DEG)), cm

@@ -101,7 +101,11 @@ class _Heading:
         places = [self.at.get(name) for name in ("mach", "reynolds", "alpha", "cl", "cd", "cm")]
         if len(words) <= max(place for place in places if place is not None):
             return None
-        row = [value for place in places if (value := np.nan if place is None else number_of(words[place])) is not None]
+        row = [
+            value
+            for place in places
+            if (value := np.nan if place is None else number_of(words[place])) is not None
+        ]
         if len(row) < len(places):
             return None
         row[2] = math.degrees(row[2]) if self.radians else row[2]
@@ -119,12 +123,17 @@ def _headings(lines: list[str]) -> list[_Heading]:
         if len(line) > _LONGEST_HEADING or "c" not in line.lower():
             continue
         for mark in (";", ",", None):
-            keys = [re.sub(r"\([^()]*\)|\[[^]]*\]|[^a-z0-9]", "", word.lower()) for word in _split(line, mark)]
+            keys = [
+                re.sub(r"\([^()]*\)|\[[^]]*\]|[^a-z0-9]", "", word.lower())
+                for word in _split(line, mark)
+            ]
             keys = keys if mark else [key for key in keys if key and key not in _SECOND_WORDS]
             names = [_NAMES.get(key, key) for key in keys]
             if {"alpha", "cl", "cd"} <= set(names):
                 at = {name: names.index(name) for name in names}
-                found.append(_Heading(place, mark, at, len(names), _RADIANS.search(line.lower()) is not None))
+                found.append(
+                    _Heading(place, mark, at, len(names), _RADIANS.search(line.lower()) is not None)
+                )
                 break
     return found
 
@@ -143,12 +152,17 @@ def parse_polars(text: str, name: str) -> PolarSet:
         )
     groups: dict[tuple[float, float], list[Row]] = {}
     begin, stated, assumed = 0, (np.nan, np.nan), dict[str, None]()
-    for heading, end in zip(headings, [*(after.line for after in headings[1:]), len(lines)], strict=True):
+    for heading, end in zip(
+        headings, [*(after.line for after in headings[1:]), len(lines)], strict=True
+    ):
         stated = _stated(name, lines[max(begin, heading.line - _HEAD) : heading.line], stated)
         begin = heading.line + 1
         for number, (mach, reynolds, *values) in _rows(name, lines, heading, end):
             begin = number
-            mach, reynolds = stated[0] if np.isnan(mach) else mach, stated[1] if np.isnan(reynolds) else reynolds
+            mach, reynolds = (
+                stated[0] if np.isnan(mach) else mach,
+                stated[1] if np.isnan(reynolds) else reynolds,
+            )
             if 0.0 < reynolds < _LEAST_REYNOLDS:
                 raise ValueError(
                     f"{name}: Reynolds number {reynolds:g} is not a blade's: give it in full, such as 500000"
@@ -168,11 +182,17 @@ def parse_polars(text: str, name: str) -> PolarSet:
                 )
     if not groups:
         raise ValueError(f"{name} has no rows of numbers below its heading: give at least 8 angles")
-    polars = tuple(_polar(name, mach, reynolds, groups[mach, reynolds]) for mach, reynolds in sorted(groups))
-    return PolarSet(tuple(line[1:].strip() for line in lines if line.startswith("#")), polars, tuple(assumed))
+    polars = tuple(
+        _polar(name, mach, reynolds, groups[mach, reynolds]) for mach, reynolds in sorted(groups)
+    )
+    return PolarSet(
+        tuple(line[1:].strip() for line in lines if line.startswith("#")), polars, tuple(assumed)
+    )
 
 
-def _rows(name: str, lines: list[str], heading: _Heading, end: int) -> Iterator[tuple[int, tuple[float, ...]]]:
+def _rows(
+    name: str, lines: list[str], heading: _Heading, end: int
+) -> Iterator[tuple[int, tuple[float, ...]]]:
     """The rows of a table with the lines they stand on, counted from 1."""
     some, other = False, None
     for number, line in enumerate(lines[heading.line + 1 : end], start=heading.line + 2):
@@ -193,15 +213,21 @@ def _rows(name: str, lines: list[str], heading: _Heading, end: int) -> Iterator[
                 other = number, line.strip()
             continue
         if other is not None:
-            raise ValueError(f"{name}, line {other[0]}: {other[1]!r} is not a row of numbers: correct or remove it")
+            raise ValueError(
+                f"{name}, line {other[0]}: {other[1]!r} is not a row of numbers: correct or remove it"
+            )
         alpha, cl, cd, cm = row[2:]
         if not (cd > 0.0 and abs(cl) < 5.0 and not abs(cm) > 1.0 and abs(alpha) <= 180.0):
             says = f"cl {cl:g}, cd {cd:g}{'' if np.isnan(cm) else f', cm {cm:g}'}"
-            raise ValueError(f"{name}, line {number}: {says} at {alpha:g} deg is not possible: remove the row")
+            raise ValueError(
+                f"{name}, line {number}: {says} at {alpha:g} deg is not possible: remove the row"
+            )
         some = True
         yield number, row
     if other is not None and end == len(lines) and re.match(r"[+-]?\.?\d", other[1]):
-        raise ValueError(f"{name}, line {other[0]}: {other[1]!r} is not a row of numbers: correct or remove it")
+        raise ValueError(
+            f"{name}, line {other[0]}: {other[1]!r} is not a row of numbers: correct or remove it"
+        )
 
 
 def _stated(name: str, above: list[str], before: tuple[float, float]) -> tuple[float, float]:
@@ -234,7 +260,9 @@ def _polar(name: str, mach: float, reynolds: float, rows: list[Row]) -> Polar:
     rows = one_row_per_angle(name, rows)
     _, alpha, cl, cd, cm = np.array(rows, dtype=np.float64).T
     if not 8 <= len(alpha) <= _MOST_ANGLES:
-        raise ValueError(f"{name} holds {len(alpha)} angles: give 8…{_MOST_ANGLES}, for example ASEQ -10 16 0.5")
+        raise ValueError(
+            f"{name} holds {len(alpha)} angles: give 8…{_MOST_ANGLES}, for example ASEQ -10 16 0.5"
+        )
     for k in np.flatnonzero((np.diff(alpha) <= _STEP_DEG) & (np.abs(alpha[1:]) <= _STEPS_TO_DEG)):
         for what, values, most in zip(("cl", "cd"), (cl, cd), _LARGEST_STEP, strict=True):
             if abs(step := values[k + 1] - values[k]) > most:
@@ -263,7 +291,10 @@ def one_row_per_angle(name: str, rows: Sequence[RowOfAngle]) -> list[RowOfAngle]
     for row in sorted(rows, key=lambda row: row[1]):
         if not kept or row[1] - kept[-1][1] > _SAME_ANGLE:
             kept.append(row)
-        elif any(abs(b - a) > _ALIKE[0] * abs(a) + _ALIKE[1] for a, b in zip(kept[-1][2:], row[2:], strict=True)):
+        elif any(
+            abs(b - a) > _ALIKE[0] * abs(a) + _ALIKE[1]
+            for a, b in zip(kept[-1][2:], row[2:], strict=True)
+        ):
             lines = sorted((int(kept[-1][0]), int(row[0])))
             raise ValueError(
                 f"{name}, line {lines[1]}: {row[1]:g} deg again, unlike line {lines[0]}: keep one of the two rows"

@@ -61,7 +61,9 @@ def parse_reading(name: str) -> PolynomialReading:
     except ValueError:
         reading = None
     if head != THESIS_NAME or reading is None or reading.name != name:
-        raise ValueError(f"no polynomials named {name!r}: write for example {THESIS_NAME}:tripped:0.4:-10:18")
+        raise ValueError(
+            f"no polynomials named {name!r}: write for example {THESIS_NAME}:tripped:0.4:-10:18"
+        )
     return reading
 
 
@@ -86,7 +88,9 @@ class PolynomialSection:
     def slopes(self, alpha: ArrayLike) -> tuple[Array, Array]:
         """(dcl, dcd)/dalpha [1/rad], zero outside the fit; at its ends, the slope from inside."""
         a, outside = np.asarray(alpha, dtype=np.float64), self.outside(alpha)
-        cl, cd = (np.where(outside, 0.0, series.deriv()(a)) for series in (self.cl_series, self.cd_series))
+        cl, cd = (
+            np.where(outside, 0.0, series.deriv()(a)) for series in (self.cl_series, self.cd_series)
+        )
         return cl, cd
 
 
@@ -125,7 +129,9 @@ def fit_polynomials(
             f"{max(lift_order, drag_order)}: widen the range or lower the order"
         )
     ends = float(np.deg2rad(range_deg[0])), float(np.deg2rad(range_deg[1]))
-    lift, drag = (Chebyshev.fit(alpha, y, order, ends) for y, order in ((cl, lift_order), (cd, drag_order)))
+    lift, drag = (
+        Chebyshev.fit(alpha, y, order, ends) for y, order in ((cl, lift_order), (cd, drag_order))
+    )
     return PolynomialSection(ends, lift, drag)
 
 
@@ -174,7 +180,13 @@ def _cubic_cells(value: Array, slope: Array) -> Array:
     """Monomial coefficients (N_ALPHA, 4) from end values and per-cell slopes of each cell, both (N_ALPHA, 2)."""
     rise = value[:, 1] - value[:, 0]
     return np.stack(
-        (value[:, 0], slope[:, 0], 3.0 * rise - 2.0 * slope[:, 0] - slope[:, 1], slope.sum(axis=1) - 2.0 * rise), axis=1
+        (
+            value[:, 0],
+            slope[:, 0],
+            3.0 * rise - 2.0 * slope[:, 0] - slope[:, 1],
+            slope.sum(axis=1) - 2.0 * rise,
+        ),
+        axis=1,
     )
 
 
@@ -188,7 +200,8 @@ def polynomial_table(reading: PolynomialReading = PolynomialReading()) -> Sectio
     """
     section = polynomial_section(reading)
     edges = -np.pi + (np.arange(N_ALPHA)[:, None] + np.array([0.0, 1.0])) * ALPHA_STEP
-    middle = edges.mean(axis=1, keepdims=True)  # Determines on which side of a jump a whole cell lies.
+    # Determines on which side of a jump a whole cell lies.
+    middle = edges.mean(axis=1, keepdims=True)
     turn = document_angle(middle)[0] - middle
     sign = document_angle(middle)[1]
     angle = edges + turn

@@ -73,12 +73,18 @@ def agreement(section: str) -> SectionAgreement:
     below: list[PublicPoint] = []
     for point in aside:
         negative, positive = table.stall_alpha(point.mach)
-        if negative < point.alpha < positive and point.mach <= 0.7 and not _shock_stalled(aside, point):
+        if (
+            negative < point.alpha < positive
+            and point.mach <= 0.7
+            and not _shock_stalled(aside, point)
+        ):
             below.append(point)
     lift = [float(table(p.alpha, p.mach).cl) - p.cl for p in below]
     drag = [float(table(p.alpha, p.mach).cd) / p.cd - 1.0 for p in below if p.mach <= 0.5]
     moments = [
-        abs(float(m) - p.cm) for p in below if p.cm is not None and (m := table.moment(p.alpha, p.mach)) is not None
+        abs(float(m) - p.cm)
+        for p in below
+        if p.cm is not None and (m := table.moment(p.alpha, p.mach)) is not None
     ]
     return SectionAgreement(
         points=len(below),
@@ -86,7 +92,8 @@ def agreement(section: str) -> SectionAgreement:
         cd_largest=float(np.abs(drag).max()),
         cm_largest=max(moments),
         divergence=tuple(
-            float(table.drag_divergence_mach(np.deg2rad(a))) - _divergence(aside, float(np.deg2rad(a)))
+            float(table.drag_divergence_mach(np.deg2rad(a)))
+            - _divergence(aside, float(np.deg2rad(a)))
             for a in (0, 2, 4)
         ),
     )

@@ -48,8 +48,12 @@ def by_reynolds(polars: Sequence[Polar]) -> tuple[tuple[float, tuple[Polar, ...]
     numbers = sorted(_number(polar) for group in of_mach if len(group) > 1 for polar in group)
     if not numbers:
         return ((_number(polars[0]), tuple(polars)),)
-    several = numbers[:1] + [high for low, high in pairwise(numbers) if not _same_reynolds(low, high)]
-    return tuple((number, tuple(_polar_at(group, number) for group in of_mach)) for number in several)
+    several = numbers[:1] + [
+        high for low, high in pairwise(numbers) if not _same_reynolds(low, high)
+    ]
+    return tuple(
+        (number, tuple(_polar_at(group, number) for group in of_mach)) for number in several
+    )
 
 
 def shares(known: Sequence[float], reynolds: float) -> tuple[tuple[int, float], ...]:
@@ -68,13 +72,18 @@ def _polar_at(polars: Sequence[Polar], reynolds: float) -> Polar:
     if len(ordered) == 1:
         return ordered[0]
     known = [_number(polar) for polar in ordered]
-    near = next((place for place, number in enumerate(known) if _same_reynolds(number, reynolds)), None)
+    near = next(
+        (place for place, number in enumerate(known) if _same_reynolds(number, reynolds)), None
+    )
     parts = shares(known, reynolds) if near is None else ((near, 1.0),)
     if len(parts) == 1:
         return ordered[parts[0][0]]
     (first, _), (second, share) = parts
     low, high = ordered[first], ordered[second]
-    start, end = max(low.alpha_deg[0], high.alpha_deg[0]), min(low.alpha_deg[-1], high.alpha_deg[-1])
+    start, end = (
+        max(low.alpha_deg[0], high.alpha_deg[0]),
+        min(low.alpha_deg[-1], high.alpha_deg[-1]),
+    )
     alpha: Array = np.union1d(low.alpha_deg, high.alpha_deg)
     alpha = alpha[(alpha >= start) & (alpha <= end)]
 
@@ -84,5 +93,10 @@ def _polar_at(polars: Sequence[Polar], reynolds: float) -> Polar:
         return (1.0 - share) * at_low + share * at_high
 
     return Polar(
-        low.mach, reynolds, alpha, between(low.cl, high.cl), between(low.cd, high.cd), between(low.cm, high.cm)
+        low.mach,
+        reynolds,
+        alpha,
+        between(low.cl, high.cl),
+        between(low.cd, high.cd),
+        between(low.cm, high.cm),
     )

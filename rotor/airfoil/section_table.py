@@ -29,7 +29,8 @@ _LEAST_SLOPE = 0.5
 """[1/rad] of lift about zero lift. A flat plate has 6.3, and transonic data have 2 or more."""
 _ZERO_LIFT = np.deg2rad(6.0)
 """Largest step of Newton's method; zero lift itself is searched within twice this angle."""
-SEARCH_OUTWARD = np.deg2rad(np.arange(20, 301) / 10.0)  # From zero lift: 2 deg, where flow is attached, to 30 deg.
+# From zero lift: 2 deg, where flow is attached, to 30 deg.
+SEARCH_OUTWARD = np.deg2rad(np.arange(20, 301) / 10.0)
 
 
 # Monomial coefficients of a cubic on [0, 1] from (value, value, slope, slope) at its ends.
@@ -44,13 +45,23 @@ def mach_nodes() -> Array:
 def _nodes_along_alpha(block: C81Block) -> tuple[Array, Array]:
     """Values and alpha-slopes (per cell) at the uniform alpha nodes, shape (N_ALPHA + 1, Machs)."""
     knots, values = block.alpha_deg, block.values
-    if abs(knots[0] + 180.0) > 1e-9 or abs(knots[-1] - 180.0) > 1e-9 or np.any(np.abs(values[0] - values[-1]) > 1e-9):
-        raise ValueError("the angles must run from -180 to 180 deg with equal ends: add the missing angles")
+    if (
+        abs(knots[0] + 180.0) > 1e-9
+        or abs(knots[-1] - 180.0) > 1e-9
+        or np.any(np.abs(values[0] - values[-1]) > 1e-9)
+    ):
+        raise ValueError(
+            "the angles must run from -180 to 180 deg with equal ends: add the missing angles"
+        )
     if np.any(np.abs(knots * 2.0 - np.round(knots * 2.0)) > 1e-9):
-        raise ValueError("an angle is not a multiple of 0.5 deg, the step of the run-time grid: move it to one")
+        raise ValueError(
+            "an angle is not a multiple of 0.5 deg, the step of the run-time grid: move it to one"
+        )
     # Two knots of the next turn on each side make the slopes at +-180 deg periodic.
     longer = np.concatenate((knots[-3:-1] - 360.0, knots, knots[1:3] + 360.0))
-    curve = scipy.interpolate.PchipInterpolator(longer, np.concatenate((values[-3:-1], values, values[1:3])), axis=0)
+    curve = scipy.interpolate.PchipInterpolator(
+        longer, np.concatenate((values[-3:-1], values, values[1:3])), axis=0
+    )
     nodes = np.arange(N_ALPHA + 1) * 0.5 - 180.0
     slope: Callable[[Array], Array] = curve.derivative()
     return np.asarray(curve(nodes)), np.asarray(slope(nodes)) * 0.5
@@ -60,8 +71,11 @@ def _along_mach(mach: Array, values: Array) -> tuple[Array, Array]:
     """Values and Mach-slopes (per cell) at the uniform Mach nodes, shape (rows, N_MACH + 1), constant outside."""
     nodes = mach_nodes()
     inside = np.clip(nodes, mach[0], mach[-1])
-    slopes = np.asarray(scipy.interpolate.PchipInterpolator(mach, values, axis=1).derivative()(mach))
-    slopes[:, -1] = 0.0  # Constant beyond the data, so the slope at its end is zero: C1 across the limit.
+    slopes = np.asarray(
+        scipy.interpolate.PchipInterpolator(mach, values, axis=1).derivative()(mach)
+    )
+    # Constant beyond the data, so the slope at its end is zero: C1 across the limit.
+    slopes[:, -1] = 0.0
     slopes[:, 0] = 0.0
     curve = scipy.interpolate.CubicHermiteSpline(mach, values, slopes, axis=1)
     slope: Callable[[Array], Array] = curve.derivative()
@@ -76,7 +90,9 @@ def bicubic_coefficients(block: C81Block) -> Array:
     """
     steps = block.mach / MACH_STEP
     if np.any(np.abs(steps - np.round(steps)) > 1e-9) or block.mach[-1] > 1.0 + 1e-9:
-        raise ValueError("a Mach number is not a multiple of 0.05 within 0..1: move it to the run-time grid")
+        raise ValueError(
+            "a Mach number is not a multiple of 0.05 within 0..1: move it to the run-time grid"
+        )
     f, f_u = _nodes_along_alpha(block)
     f, f_v = _along_mach(block.mach, f)
     f_u, f_uv = _along_mach(block.mach, f_u)
@@ -87,7 +103,8 @@ def _cells(f: Array, f_u: Array, f_v: Array, f_uv: Array) -> Array:
     """Cell polynomials of the surface with these values and slopes per cell at its nodes, (α nodes, Mach nodes, …)."""
     corners = np.empty((N_ALPHA, N_MACH, *f.shape[2:], 4, 4))
     for row, (of_value, of_slope) in enumerate(((f, f_v), (f, f_v), (f_u, f_uv), (f_u, f_uv))):
-        upper = row % 2  # Rows: values at i, at i + 1, slopes at i, at i + 1; columns the same along Mach.
+        # Rows: values at i, at i + 1, slopes at i, at i + 1; columns the same along Mach.
+        upper = row % 2
         rows = slice(upper, upper + N_ALPHA)
         corners[..., row, 0], corners[..., row, 1] = of_value[rows, :-1], of_value[rows, 1:]
         corners[..., row, 2], corners[..., row, 3] = of_slope[rows, :-1], of_slope[rows, 1:]
@@ -107,7 +124,12 @@ def with_nodes(cells: Array, where: NDArray[np.bool_], block: C81Block) -> Array
     f, f_u = _nodes_along_alpha(block)
     (f, f_v), (f_u, f_uv) = _along_mach(block.mach, f), _along_mach(block.mach, f_u)
     own = _nodes(cells)
-    pairs = ((f, own[..., 0, 0]), (f_u, own[..., 1, 0]), (f_v, own[..., 0, 1]), (f_uv, own[..., 1, 1]))
+    pairs = (
+        (f, own[..., 0, 0]),
+        (f_u, own[..., 1, 0]),
+        (f_v, own[..., 0, 1]),
+        (f_uv, own[..., 1, 1]),
+    )
     return _cells(*(np.where(where, new, old) for new, old in pairs))
 
 
@@ -126,7 +148,9 @@ def held_beyond_peak(coefficients: Array) -> Array:
     at_peak = place == np.arange(N_ALPHA + 1)[:, None]
     # Constant from end to end.
     held[~(at_peak & np.roll(at_peak, 1, axis=0) & np.roll(at_peak, -1, axis=0)), :, 1] = 0.0
-    return np.ascontiguousarray(_cells(held[..., 0, 0], held[..., 1, 0], held[..., 0, 1], held[..., 1, 1]))
+    return np.ascontiguousarray(
+        _cells(held[..., 0, 0], held[..., 1, 0], held[..., 0, 1], held[..., 1, 1])
+    )
 
 
 def attached_lift(table: "SectionTable") -> Array:
@@ -156,7 +180,11 @@ def first_quarter_slope(slope: Array, attached: Array) -> Array:
     after = np.maximum(np.argmax(low, axis=1), 1)
     curve = np.arange(after.size, dtype=np.intp)
     before_value, after_value = excess[curve, after - 1], np.minimum(excess[curve, after], 0.0)
-    share = np.where(excess[curve, after] > 0.0, 1.0, before_value / np.maximum(before_value - after_value, 1e-12))
+    share = np.where(
+        excess[curve, after] > 0.0,
+        1.0,
+        before_value / np.maximum(before_value - after_value, 1e-12),
+    )
     start = SEARCH_OUTWARD[after - 1]
     return start + np.clip(share, 0.0, 1.0) * (SEARCH_OUTWARD[after] - start)
 
@@ -211,7 +239,12 @@ class SectionTable:
         by_alpha = np.einsum("...ka,...a->...k", along, du)
         by_mach = np.einsum("...kab,...a,...b->...k", cell, us, dv) * inside[..., None]
         return SectionCoefficients(
-            value[..., 0], value[..., 1], by_alpha[..., 0], by_alpha[..., 1], by_mach[..., 0], by_mach[..., 1]
+            value[..., 0],
+            value[..., 1],
+            by_alpha[..., 0],
+            by_alpha[..., 1],
+            by_mach[..., 0],
+            by_mach[..., 1],
         )
 
     def moment(self, alpha: ArrayLike, mach: ArrayLike) -> Array | None:
@@ -219,13 +252,19 @@ class SectionTable:
         if self.moment_coefficients is None:
             return None
         i, j, u, v, _ = self._cells(alpha, mach)
-        return np.asarray(np.einsum("...ab,...a,...b->...", self.moment_coefficients[i, j], _powers(u), _powers(v)))
+        return np.asarray(
+            np.einsum(
+                "...ab,...a,...b->...", self.moment_coefficients[i, j], _powers(u), _powers(v)
+            )
+        )
 
     def _cells(
         self, alpha: ArrayLike, mach: ArrayLike
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], Array, Array, NDArray[np.bool_]]:
         """Cell indices, places within the cell, and whether the Mach number is inside the data."""
-        a, m = np.broadcast_arrays(np.asarray(alpha, dtype=np.float64), np.asarray(mach, dtype=np.float64))
+        a, m = np.broadcast_arrays(
+            np.asarray(alpha, dtype=np.float64), np.asarray(mach, dtype=np.float64)
+        )
         turn = np.mod((a + np.pi) / ALPHA_STEP, N_ALPHA)
         i = np.minimum(turn.astype(np.intp), N_ALPHA - 1)
         inside = (m >= 0.0) & (m <= self.mach_limit)
@@ -258,19 +297,24 @@ class SectionTable:
         """Stall angles (negative, positive) [rad] at `mach`, linear between the grid's Machs, constant outside."""
         m = np.asarray(mach, dtype=np.float64)
         negative = np.interp(m, mach_nodes(), self.alpha_stall_negative)
-        return np.asarray(negative), np.asarray(np.interp(m, mach_nodes(), self.alpha_stall_positive))
+        return np.asarray(negative), np.asarray(
+            np.interp(m, mach_nodes(), self.alpha_stall_positive)
+        )
 
     def zero_lift_alpha(self, mach: ArrayLike) -> Array:
         """Zero-lift angle of attack [rad] at `mach`, within -12..12 deg: Newton's method from the sampled crossing."""
         m = np.asarray(mach, dtype=np.float64)
         sample = np.deg2rad(np.linspace(-6.0, 6.0, 25))
-        nearest = np.abs(self(sample, m[..., None]).cl) + 1e-9 * np.abs(sample)  # Of a body without lift: no angle.
+        # Of a body without lift: no angle.
+        nearest = np.abs(self(sample, m[..., None]).cl) + 1e-9 * np.abs(sample)
         alpha = sample[np.argmin(nearest, axis=-1)]
         for _ in range(4):
             here = self(alpha, m)
             # The slope is zero at a peak.
             step = here.cl / np.where(here.cl_alpha > _LEAST_SLOPE, here.cl_alpha, np.inf)
-            alpha = np.clip(alpha - np.clip(step, -_ZERO_LIFT, _ZERO_LIFT), -2.0 * _ZERO_LIFT, 2.0 * _ZERO_LIFT)
+            alpha = np.clip(
+                alpha - np.clip(step, -_ZERO_LIFT, _ZERO_LIFT), -2.0 * _ZERO_LIFT, 2.0 * _ZERO_LIFT
+            )
         return np.asarray(alpha)
 
     @property
@@ -304,7 +348,11 @@ def _slopes_of_powers(x: Array) -> Array:
 
 
 def make_table(
-    name: str, source: str, coefficients: Array, mach_limit: float, fit_range: tuple[float, float] | None = None
+    name: str,
+    source: str,
+    coefficients: Array,
+    mach_limit: float,
+    fit_range: tuple[float, float] | None = None,
 ) -> SectionTable:
     """A `SectionTable` with the stall angles found on its own curves at the grid's Machs."""
     unknown = np.zeros(N_MACH + 1)
@@ -315,7 +363,11 @@ def make_table(
         return replace(bare, alpha_stall_negative=-none, alpha_stall_positive=none)
     zero, attached = bare.zero_lift_alpha(mach), bare.lift_slope(mach)
     onsets = [
-        zero + side * first_quarter_slope(bare(zero[:, None] + side * SEARCH_OUTWARD, mach[:, None]).cl_alpha, attached)
+        zero
+        + side
+        * first_quarter_slope(
+            bare(zero[:, None] + side * SEARCH_OUTWARD, mach[:, None]).cl_alpha, attached
+        )
         for side in (-1.0, 1.0)
     ]
     return replace(bare, alpha_stall_negative=onsets[0], alpha_stall_positive=onsets[1])
@@ -353,4 +405,8 @@ def table_from_deck(name: str, source: str, deck: C81Deck) -> SectionTable:
     coefficients = np.stack([bicubic_coefficients(block) for block in (deck.cl, deck.cd)], axis=2)
     table = make_table(name, source, coefficients, float(min(deck.cl.mach[-1], deck.cd.mach[-1])))
     _check_lift(table)
-    return table if deck.cm is None else replace(table, moment_coefficients=bicubic_coefficients(deck.cm))
+    return (
+        table
+        if deck.cm is None
+        else replace(table, moment_coefficients=bicubic_coefficients(deck.cm))
+    )

@@ -22,7 +22,8 @@ from rotor.support.user_input import check_known
 TABLE_NAMES = (*SECTION_NAMES, THESIS_NAME)
 
 _TUNNEL_SOURCE = (
-    "XFOIL 6.99 tripped at 5 % chord; levels, shocks and moments from public tunnel-derived data; wrapped to ±180 deg"
+    "XFOIL 6.99 tripped at 5 % chord; levels, shocks and moments from public tunnel-derived data; "
+    "wrapped to ±180 deg"
 )
 _SLOPE = (
     "XFOIL 6.99 tripped at 5 % chord, Re of its own rotor; lift slope of tunnels; compressibility and ±180 deg wrap by "
@@ -78,7 +79,11 @@ class Section:
     def one_at(self, reynolds: float) -> "Section":
         """The section with the table of that Reynolds number, made where it lies between two."""
         (first, _), *other = self.at(reynolds)
-        return replace(first, table=between(first.table, other[0][0].table, other[0][1])) if other else first
+        return (
+            replace(first, table=between(first.table, other[0][0].table, other[0][1]))
+            if other
+            else first
+        )
 
 
 @dataclass(frozen=True)
@@ -114,12 +119,19 @@ def install_own(section: OwnSection) -> Section:
 
     Raises ValueError with one sentence that gives line and remedy for a deck or an outline that cannot be used.
     """
-    outline = parse_contour(section.outline, section.name) if "\n" in section.outline else load_contour(section.outline)
+    outline = (
+        parse_contour(section.outline, section.name)
+        if "\n" in section.outline
+        else load_contour(section.outline)
+    )
 
     def with_deck(text: str) -> Section:
-        table = table_from_deck(section.name, section.source, on_run_time_grid(parse_c81(text, section.name)))
+        table = table_from_deck(
+            section.name, section.source, on_run_time_grid(parse_c81(text, section.name))
+        )
         return Section(section.name, table, section.incidence_offset, section.chord_ratio, outline)
 
     return replace(
-        with_deck(section.deck), of_reynolds=tuple((number, with_deck(text)) for number, text in section.decks)
+        with_deck(section.deck),
+        of_reynolds=tuple((number, with_deck(text)) for number, text in section.decks),
     )

@@ -41,7 +41,9 @@ _NEVER = 1e3
 _LEAST_C_N = 0.1
 """C_n below which the place where it acts passes over to the quarter chord. Our choice."""
 
-ONSET = (SLOPE, POSITIVE, NEGATIVE, ZERO, LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, TRAVEL) = tuple(range(8))
+ONSET = (SLOPE, POSITIVE, NEGATIVE, ZERO, LAG_PRESSURE, LAG_SEPARATION, LAG_VORTEX, TRAVEL) = tuple(
+    range(8)
+)
 """Rows of `StallOnset.numbers`."""
 
 _LAG_MACH = (0.3, 0.4, 0.5, 0.6, 0.7, 0.75, 0.8)
@@ -80,7 +82,8 @@ def stall_onset(table: SectionTable) -> StallOnset:
     slope = np.where(attached, secant, 0.0).max(axis=0)
     slope = np.where(slope > 0.0, slope, table.lift_slope(mach))  # Stall begins at the first angle.
     ratio = np.divide(force, slope * x, out=np.ones_like(force), where=inside)
-    least = np.where(positive < np.pi, LEAST_SEPARATION, 1.001 * STALLED)  # Of a section that does not stall.
+    # Of a section that does not stall.
+    least = np.where(positive < np.pi, LEAST_SEPARATION, 1.001 * STALLED)
     f[inside] = np.clip((2.0 * np.sqrt(np.maximum(ratio, 0.25)) - 1.0) ** 2, least, 1.0)[inside]
     if moment is not None:
         of_lift = moment - moment[len(x) // 2]
@@ -89,7 +92,9 @@ def stall_onset(table: SectionTable) -> StallOnset:
     numbers[SLOPE], numbers[ZERO] = slope, zero
     for row, end in ((POSITIVE, positive), (NEGATIVE, negative)):
         reached = np.abs(end) < np.pi
-        numbers[row] = np.where(reached, _normal_force(table, end, mach) / slope, np.copysign(_NEVER, end))
+        numbers[row] = np.where(
+            reached, _normal_force(table, end, mach) / slope, np.copysign(_NEVER, end)
+        )
     for row, lags in _LAGS.items():
         numbers[row] = np.interp(mach, _LAG_MACH, lags)
     blocks = (bicubic_coefficients(C81Block(mach, angles, values)) for values in (f, m))
@@ -129,18 +134,29 @@ def unstalled(table: SectionTable) -> SectionTable:
         coefficients=np.ascontiguousarray(forces),
         alpha_stall_negative=-none,
         alpha_stall_positive=none,
-        moment_coefficients=None if known is None or own is None or held is None else cells(known, own, held),
+        moment_coefficients=None
+        if known is None or own is None or held is None
+        else cells(known, own, held),
     )
 
 
 def _ends(table: SectionTable) -> tuple[Array, Array]:
     """Angles of attack [rad] at the Mach nodes up to which f is at least `STALLED`, at most 30° from zero lift."""
     mach = mach_nodes()
-    zero, slope, out = table.zero_lift_alpha(mach), stall_onset(table).numbers[SLOPE], SEARCH_OUTWARD[:, None]
+    zero, slope, out = (
+        table.zero_lift_alpha(mach),
+        stall_onset(table).numbers[SLOPE],
+        SEARCH_OUTWARD[:, None],
+    )
 
     def end(side: float) -> Array:
-        low = side * _normal_force(table, zero + side * out, mach) < 0.25 * (1.0 + STALLED**0.5) ** 2 * slope * out
-        last = np.where(low.any(axis=0), np.maximum(np.argmax(low, axis=0) - 1, 0), len(SEARCH_OUTWARD) - 1)
+        low = (
+            side * _normal_force(table, zero + side * out, mach)
+            < 0.25 * (1.0 + STALLED**0.5) ** 2 * slope * out
+        )
+        last = np.where(
+            low.any(axis=0), np.maximum(np.argmax(low, axis=0) - 1, 0), len(SEARCH_OUTWARD) - 1
+        )
         return zero + side * SEARCH_OUTWARD[last]
 
     return end(-1.0), end(1.0)

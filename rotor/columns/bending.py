@@ -47,7 +47,11 @@ def bends(s: Structure) -> bool:
 
 def coordinate(s: Structure, first: int, k: int, h: int) -> int:
     """The atom of q_kh."""
-    return s.states[FLAPPING_STATES[h]] if k == first and h < len(FLAPPING_STATES) else s.states["bend", k, h]
+    return (
+        s.states[FLAPPING_STATES[h]]
+        if k == first and h < len(FLAPPING_STATES)
+        else s.states["bend", k, h]
+    )
 
 
 def coordinates_of(b: BladeBending, s: Structure, z: Array) -> tuple[Array, float]:
@@ -78,14 +82,20 @@ class Bending(Freedom):
     def __init__(self, problem: Problem) -> None:
         b, torsion = problem.bending, problem.torsion
         assert b is not None
-        self.modes, self.first, self.lag, self.functions = len(b.mass), b.first, b.lag, 1 + 2 * b.harmonics
+        self.modes, self.first, self.lag, self.functions = (
+            len(b.mass),
+            b.first,
+            b.lag,
+            1 + 2 * b.harmonics,
+        )
         self.twists = 0 if torsion is None else len(torsion.gain)
         self._hub = problem.design.rotor.blades, b.modes.beam.springs[0] > 0.0
         self.states = tuple(
             OFFSET if (k, h) == (self.lag, STEADY) else ("bend", k, h)
             for k in range(self.modes)
             for h in range(self.functions)
-            if k != self.first or h >= len(FLAPPING_STATES)  # Coning and first-harmonic flapping are the trim's.
+            if k != self.first
+            or h >= len(FLAPPING_STATES)  # Coning and first-harmonic flapping are the trim's.
         )
 
     def numbers(self, problem: Problem) -> dict[Hashable, float]:
@@ -103,8 +113,12 @@ class Bending(Freedom):
         damping = gain[:, None, :] * b.damping[:, :, None] * harmonic
         if torsion is not None:
             weight = torsion.radial * (torsion.tip_mass * torsion.dr)
-            by_slope, by_acceleration = weight @ b.shapes[1].T, weight / problem.disk.r @ b.shapes[0].T
-            tip = by_slope[..., None] - by_acceleration[..., None] * harmonic**2  # (twists, modes, harmonics)
+            by_slope, by_acceleration = (
+                weight @ b.shapes[1].T,
+                weight / problem.disk.r @ b.shapes[0].T,
+            )
+            # (twists, modes, harmonics)
+            tip = by_slope[..., None] - by_acceleration[..., None] * harmonic**2
         else:
             tip = np.zeros((0, self.modes, highest + 1))
         for k in range(self.modes):
@@ -166,15 +180,22 @@ class Bending(Freedom):
             s.term(row, -1.0, n["bend load", k])
             if OFFSET in s.states:
                 s.term(row, -1.0, n["in plane", k], s.states[OFFSET])
-            if steady_lag:  # The shortened blade's mass is nearer to the shaft: −½ y0 ∫ E ∫_r^R m dρ dr.
+            # The shortened blade's mass is nearer to the shaft: −½ y0 ∫ E ∫_r^R m dρ dr.
+            if steady_lag:
                 shortened = s.measure(slot[E], OUTBOARD, STEADY)
                 s.term(row, 0.5, n["steady lag"], s.states[OFFSET], shortened)
         else:
             partner, factor = rate_of(h)
             s.term(row, factor, gain, q=s.measure(slot[E], ("outboard", k), partner))
-            for other in range(self.modes):  # (q')_h = −factor/h · h q_partner: the rate of the partner is this wave.
+            # (q')_h = −factor/h · h q_partner: the rate of the partner is this wave.
+            for other in range(self.modes):
                 sign = -factor / harmonic
-                s.term(row, sign, n["bend damping", k, other, harmonic], coordinate(s, self.first, other, partner))
+                s.term(
+                    row,
+                    sign,
+                    n["bend damping", k, other, harmonic],
+                    coordinate(s, self.first, other, partner),
+                )
         for j in range(self.twists):
             twist = s.states["twist", j, h]
             s.term(row, -1.0, n["tip on bending", j, k, harmonic], twist)
@@ -203,7 +224,9 @@ def freedoms_of(problem: Problem, functions: int | None = None) -> tuple[Freedom
     torsion, bending = problem.torsion, problem.bending
     freedoms = list[Freedom]()
     if torsion is not None:
-        freedoms.append(Torsion(len(torsion.gain), functions or torsion.functions, bends=bending is not None))
+        freedoms.append(
+            Torsion(len(torsion.gain), functions or torsion.functions, bends=bending is not None)
+        )
     if bending is not None:
         freedoms.append(Bending(problem))
     return tuple(freedoms)
@@ -223,7 +246,9 @@ def has_hub_loads(blades: int, harmonics: int = HARMONICS) -> bool:
 class HubLoadTerms:
     """The terms of a blade; or only their measures, which a structure needs before it is finished."""
 
-    def __init__(self, s: Structure, blades: int, sprung: bool, bending: BladeBending | None = None) -> None:
+    def __init__(
+        self, s: Structure, blades: int, sprung: bool, bending: BladeBending | None = None
+    ) -> None:
         self._s, self._blades, self._sprung, self._bending = s, blades, sprung, bending
         self.rows = list[tuple[int, int, int, int, float]]()
         for row in range(2 * len(LOADS)):
@@ -239,13 +264,27 @@ class HubLoadTerms:
                 self._moment(row, wave, about, beside, sign)
 
     def _measured(
-        self, row: int, waves: tuple[int, int], force: int, shape: str, factor: float, atom: int = ONE
+        self,
+        row: int,
+        waves: tuple[int, int],
+        force: int,
+        shape: str,
+        factor: float,
+        atom: int = ONE,
     ) -> None:
         for product, share in times_wave(*waves):
-            self.rows.append((row, self._s.measure(force, shape, product), atom, ONE, 2.0 * factor * share))
+            self.rows.append(
+                (row, self._s.measure(force, shape, product), atom, ONE, 2.0 * factor * share)
+            )
 
     def _moving(
-        self, row: int, waves: tuple[int, int], shapes: Array, lever: str, factor: float, atom: int = ONE
+        self,
+        row: int,
+        waves: tuple[int, int],
+        shapes: Array,
+        lever: str,
+        factor: float,
+        atom: int = ONE,
     ) -> None:
         """factor · atom · Σ_k shapes_k q_k, or minus its second derivative, or minus what both add up to."""
         bending = self._bending
@@ -261,7 +300,11 @@ class HubLoadTerms:
     def _static(self, which: int, arm: bool = False) -> Array:
         """∫ m (r) W_k dr or ∫ m V_k dr, (modes,)."""
         bending = self._bending
-        return np.zeros(0) if bending is None else bending.along[which] @ (bending.strips * (bending.r if arm else 1.0))
+        return (
+            np.zeros(0)
+            if bending is None
+            else bending.along[which] @ (bending.strips * (bending.r if arm else 1.0))
+        )
 
     def _vertical(self, row: int, wave: int, times: int, factor: float, atom: int = ONE) -> None:
         self._measured(row, (wave, times), FZ, "one", factor, atom)
@@ -287,4 +330,6 @@ class HubLoadTerms:
 
 def hub_load_terms(s: Structure, blades: int, bending: BladeBending) -> Terms:
     """Cosine and sine of each of `LOADS` in turn, over ρA(ΩR)² and for moments R."""
-    return Terms.of(HubLoadTerms(s, blades, bending.modes.beam.springs[0] > 0.0, bending).rows, 2 * len(LOADS))
+    return Terms.of(
+        HubLoadTerms(s, blades, bending.modes.beam.springs[0] > 0.0, bending).rows, 2 * len(LOADS)
+    )

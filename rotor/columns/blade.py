@@ -52,7 +52,11 @@ def add_accelerations(s: Structure, first: int, slopes: int | None = None) -> No
     which wind blows: w' µ_x cos ψ is in its U_P. No wave is added beyond the highest.
     """
     by_rate = {RATE: first + DTH, UT: first + DUT, UP: first + DUP}
-    moved = [(by_rate[column[0]], column, (column[2], 1.0), column[4]) for column in s.columns if column[0] in by_rate]
+    moved = [
+        (by_rate[column[0]], column, (column[2], 1.0), column[4])
+        for column in s.columns
+        if column[0] in by_rate
+    ]
     highest = max(column[2] for column in s.columns)
     if slopes is not None:
         by_slope, mu_x = {slopes: first + DUP, slopes + 1: first + DUT}, s.derived["mu_x"]
@@ -146,7 +150,10 @@ class Torsion(Freedom):
         out = dict[Hashable, float]()
         gain, coupling = torsion.gain.tolist(), (torsion.gain[:, None] * torsion.coupling).tolist()
         mass = (torsion.gain * torsion.modal(torsion.tip_mass)).tolist()
-        inertia, dynamic = (torsion.gain * torsion.modal(torsion.inertia)).tolist(), torsion.dynamic.tolist()
+        inertia, dynamic = (
+            (torsion.gain * torsion.modal(torsion.inertia)).tolist(),
+            torsion.dynamic.tolist(),
+        )
         for k in range(self.modes):
             out |= {("gain", k): gain[k], ("gain of a wave", k): 2.0 * gain[k]}
             out |= {("tip mass", k): mass[k], ("inertia", k): inertia[k]}

@@ -15,13 +15,28 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from rotor.aero.bent_section import SLOPES
-from rotor.aero.elements import STATE_NAMES, BentState, BladeElements, DiskSums, TrimState, TwistState, section_fields
+from rotor.aero.elements import (
+    STATE_NAMES,
+    BentState,
+    BladeElements,
+    DiskSums,
+    TrimState,
+    TwistState,
+    section_fields,
+)
 from rotor.aero.inflow.interface import DiskFlow, InflowTerms
 from rotor.aero.problem import Problem, swirl_of
 from rotor.aero.section import FZ, LOSS, RATE, TH, UP, UR, UT, M
 from rotor.aero.unsteady_section import DTH, DUP, RATES
 from rotor.columns.bending import bends, coordinates_of, freedoms_of
-from rotor.columns.blade import Freedom, Torsion, add_accelerations, add_pitch_rates, add_rigid_blade, power_of_air
+from rotor.columns.blade import (
+    Freedom,
+    Torsion,
+    add_accelerations,
+    add_pitch_rates,
+    add_rigid_blade,
+    power_of_air,
+)
 from rotor.columns.trims import Trim, add_equations, declare_equations, trim_numbers, trim_of
 from rotor.engine.linearise import Grid, Live, Point, Shapes, System, part
 from rotor.engine.terms import ONE, Shape, Structure
@@ -103,7 +118,11 @@ def _structure(key: _StructureKey) -> Structure:
     for channel, name, wave, atom in live:
         s.column(channel, (name, "tilt"), wave, 1.0, derived["change of tilt"], atom)
         s.column(channel, (name, "inflow"), wave, 1.0, derived["change of lambda0"], atom)
-    for channel, name, wave, atom in ((UT, SWIRL, STEADY, ONE), *live):  # Last, since most of them do not change.
+    # Last, since most of them do not change.
+    for channel, name, wave, atom in (
+        (UT, SWIRL, STEADY, ONE),
+        *live,
+    ):
         s.column(channel, name, wave, 1.0, atom)
     return s.finish([s.states[name] for name in (*key.trim.unknowns, *names)])
 
@@ -120,7 +139,9 @@ def _add_sums(s: Structure, key: _StructureKey) -> None:
     damping = [term for freedom in key.freedoms for term in freedom.power(s)]
     parts = torque + [(-share, i, j, q) for share, i, j, q in motion] + damping
     mu_x, mu_z = s.derived["mu_x"], s.derived["mu_z"]
-    pull = [(share, mu_x, atom, q) for share, atom, _, q in drag] + [(-1.0, mu_z, ONE, s.measure(FZ, "one", STEADY))]
+    pull = [(share, mu_x, atom, q) for share, atom, _, q in drag] + [
+        (-1.0, mu_z, ONE, s.measure(FZ, "one", STEADY))
+    ]
     sums = {"drag": drag, "torque": torque, "motion": motion, "damping": damping}
     for name, terms in (*sums.items(), ("power", parts + pull), ("power on a stand", parts)):
         s.sum(name, terms)
@@ -136,7 +157,11 @@ SWIRL, SWIRL_SLOPE = "swirl", "swirl slope"
 
 def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCES) -> System:
     """The equations of a design in forward flight."""
-    terms, freedoms, disk = problem.inflow_terms, (*freedoms_of(problem), *problem.freedoms), problem.disk
+    terms, freedoms, disk = (
+        problem.inflow_terms,
+        (*freedoms_of(problem), *problem.freedoms),
+        problem.disk,
+    )
     values: dict[Hashable, float] = {**trim_numbers(problem)}
     shapes: dict[Shape, Array] = {"one": np.ones_like(disk.r), "r": disk.r, "arm": problem.arm}
     for freedom in freedoms:
@@ -146,7 +171,9 @@ def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCE
     kind = (section.pairs, section.channels, section.forces)
     first = terms.interface.channels if problem.unsteady else None
     trim, numbers = trim_of(problem.design), tuple(values)
-    key = _StructureKey(trim, blade, numbers, terms.key, problem.unsteady, first, kind, freedoms, terms)
+    key = _StructureKey(
+        trim, blade, numbers, terms.key, problem.unsteady, first, kind, freedoms, terms
+    )
     structure = _structure(key)
     grid = _grid(problem, structure, 1)
     step = _thinning(len(problem.disk.psi), terms.least_azimuths)
@@ -160,30 +187,58 @@ def flight_system(problem: Problem, wanted: SystemTolerances = DEFAULT_TOLERANCE
         points = len(nodes.matrix)
         tolerance = np.concatenate([tolerance, np.full(points, nodes.tolerance)])
         limits = np.concatenate([limits, np.full(points, nodes.limit)])
-    along, make = Shapes(structure, shapes | terms.shapes(), disk.dr), _Flow(problem, structure, terms)
-    thin, given = grid if step == 1 else _grid(problem, structure, step), np.array([1.0, *values.values()])
-    return System(structure, along, grid, thin, section.section, make, given, tolerance, limits, nodes, section.memory)
+    along, make = (
+        Shapes(structure, shapes | terms.shapes(), disk.dr),
+        _Flow(problem, structure, terms),
+    )
+    thin, given = (
+        grid if step == 1 else _grid(problem, structure, step),
+        np.array([1.0, *values.values()]),
+    )
+    return System(
+        structure,
+        along,
+        grid,
+        thin,
+        section.section,
+        make,
+        given,
+        tolerance,
+        limits,
+        nodes,
+        section.memory,
+    )
 
 
 def check_freedoms(problem: Problem) -> None:
     """Raise TypeError or ValueError for further freedoms that this blade cannot have, or that contradict others."""
     if problem.design.hovering:
-        raise ValueError("Hover is solved at one azimuth and takes no further freedoms: give a speed.")
+        raise ValueError(
+            "Hover is solved at one azimuth and takes no further freedoms: give a speed."
+        )
     if problem.bending is not None:
-        raise ValueError("Bending blades already flap and lag: switch bending off, or give no freedoms.")
+        raise ValueError(
+            "Bending blades already flap and lag: switch bending off, or give no freedoms."
+        )
     taken: tuple[set[Hashable], ...] = {*STATE_NAMES}, {*trim_numbers(problem)}, {"one", "r", "arm"}
     for freedom in (*freedoms_of(problem), *problem.freedoms):
         if not isinstance(freedom, Freedom):
-            raise TypeError(f"freedoms contains {freedom!r:.80}: give instances of classes derived from rotor.Freedom")
+            raise TypeError(
+                f"freedoms contains {freedom!r:.80}: give instances of classes derived from rotor.Freedom"
+            )
         try:
             hash(freedom.key)
         except TypeError as error:
-            raise TypeError(f"A field of {type(freedom).__name__} cannot be hashed ({error}): use tuples.") from None
+            raise TypeError(
+                f"A field of {type(freedom).__name__} cannot be hashed ({error}): use tuples."
+            ) from None
         for names, named in zip(
             taken, (freedom.states, freedom.numbers(problem), freedom.shapes(problem)), strict=True
         ):
             if again := names.intersection(named):
-                raise ValueError(f"{type(freedom).__name__} repeats the name {min(again, key=str)!r}: choose another.")
+                raise ValueError(
+                    f"{type(freedom).__name__} repeats the name {min(again, key=str)!r}: choose another."
+                )
             names.update(named)
     s = flight_system(problem).structure
     used = {name for shapes in (s.shapes[TH], s.shapes[RATE], *s.weights) for name in shapes}
@@ -251,8 +306,18 @@ class _Flow:
         """Values, slopes by shaft tilt and λ0, and live shapes; in axes of the shaft dµ_x = −µ_z dα, dµ_z = µ_x dα."""
         flow, tilt = self.at_disk(x), float(x[self._tilt])
         seen = self._seen(flow)
-        values, slopes, sees = np.zeros(len(self._atoms)), np.zeros((len(self._atoms), 2)), float(self._sees_tilt)
-        cos, sin, l0, speed, axial = math.cos(tilt), math.sin(tilt), flow.lambda0, seen.speed, seen.axial
+        values, slopes, sees = (
+            np.zeros(len(self._atoms)),
+            np.zeros((len(self._atoms), 2)),
+            float(self._sees_tilt),
+        )
+        cos, sin, l0, speed, axial = (
+            math.cos(tilt),
+            math.sin(tilt),
+            flow.lambda0,
+            seen.speed,
+            seen.axial,
+        )
         values[:7] = cos, sin, seen.mu_x, seen.mu_z, speed, flow.mu_x, flow.mu_z
         slopes[:2, 0], slopes[5:7, 0] = (-sin, cos), (-flow.mu_z, flow.mu_x)
         slopes[2:5, 0] = -sees * seen.mu_z, sees * seen.mu_x, sees * seen.mu_x * l0 / speed
@@ -266,7 +331,10 @@ class _Flow:
         followed = self._terms.follow(flow, seen.mu_z, self._sees_tilt)
         for name, (value, by_flow) in followed.atoms.items():
             row = self._atoms[name]
-            values[row], slopes[row] = value, (flow.mu_x * by_flow[1] - flow.mu_z * by_flow[0], by_flow[2])
+            values[row], slopes[row] = (
+                value,
+                (flow.mu_x * by_flow[1] - flow.mu_z * by_flow[0], by_flow[2]),
+            )
         for (channel, name), (value, by_flow) in followed.live.items():
             live[channel, name] = value
             if (channel, name) in self._terms.live:
@@ -285,7 +353,12 @@ def parts_of(structure: Structure, x: Array) -> tuple[TrimState, Array, Array, A
     """Trim state, coordinates of the elastic twist, of all other freedoms and nodes of the inflow, flat."""
     first = structure.first_state + len(STATE_NAMES)
     others = first + len(structure.equations_of("twist"))
-    return state_of(structure, x), x[first:others], x[others : structure.given], x[structure.given :]
+    return (
+        state_of(structure, x),
+        x[first:others],
+        x[others : structure.given],
+        x[structure.given :],
+    )
 
 
 def disk_sums(point: Point) -> DiskSums:
@@ -299,7 +372,9 @@ def induced_air(problem: Problem, point: Point) -> tuple[Array, Array, Array | f
     """λ_i, (elements, azimuths), the swirl u, (elements,), and what of λ_i sections balance by themselves."""
     terms, structure, nodes = problem.inflow_terms, point.system.structure, point.system.nodes
     induced = part(point, UP, list(terms.names))
-    balanced: Array | float = 0.0 if terms.interface.balanced is None else point.forces[terms.interface.balanced]
+    balanced: Array | float = (
+        0.0 if terms.interface.balanced is None else point.forces[terms.interface.balanced]
+    )
     induced += balanced
     if nodes is not None:
         induced += nodes.field(point.x[structure.given :]).reshape(induced.shape)
@@ -326,7 +401,9 @@ def elements_of(problem: Problem, point: Point) -> BladeElements:
     bent, first = None, terms.interface.channels
     if problem.bending is not None:
         q, _ = coordinates_of(problem.bending, structure, point.z)
-        modes = problem.bending.shapes[0].T @ (q * [-float(harmonic_of(h) ** 2) for h in range(q.shape[1])])
+        modes = problem.bending.shapes[0].T @ (
+            q * [-float(harmonic_of(h) ** 2) for h in range(q.shape[1])]
+        )
         lift = modes @ wave_grid(q.shape[1], c.shape[2]).at
         bent = BentState(c[SLOPES[0] :], lift)
     beta = state.coning + state.flap_1c * disk.cos + state.flap_1s * disk.sin

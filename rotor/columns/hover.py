@@ -17,13 +17,33 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.aero.elements import BladeElements, TrimState, TwistState, Unknown, over_azimuths, section_fields
+from rotor.aero.elements import (
+    BladeElements,
+    TrimState,
+    TwistState,
+    Unknown,
+    over_azimuths,
+    section_fields,
+)
 from rotor.aero.inflow.interface import DiskFlow
 from rotor.aero.inflow.local_momentum import BALANCED, MOST_PASSES, balancing_step, bracket_of
 from rotor.aero.losses import HUB_FACTOR, end_factor
 from rotor.aero.momentum import axial_inflow, is_windmill
 from rotor.aero.problem import Problem, swirl_of
-from rotor.aero.section import CHANNELS, FORCES, FX, FZ, LOSS, PAIRS, TH, UP, UT, M, SectionData, section
+from rotor.aero.section import (
+    CHANNELS,
+    FORCES,
+    FX,
+    FZ,
+    LOSS,
+    PAIRS,
+    TH,
+    UP,
+    UT,
+    M,
+    SectionData,
+    section,
+)
 from rotor.airfoil.sections import Section
 from rotor.columns.bending import freedoms_of
 from rotor.columns.blade import Torsion
@@ -114,7 +134,9 @@ _FZ_TH, _FZ_UT, _FZ_UP = _ROW[FZ, TH], _ROW[FZ, UT], _ROW[FZ, UP]
 _compile = compiled(error_model="numpy")
 
 
-def _annulus_section(c: Array, data: AnnulusData, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
+def _annulus_section(
+    c: Array, data: AnnulusData, slopes: bool, flow: bool
+) -> tuple[Array, Array, Array]:
     """The section with the inflow that balances its annulus; as `section.section`, with the rows `HOVER_PAIRS`."""
     theta = c[TH, :, 0].copy()
     inflow, answer = _balanced(theta, data.start, data.annuli, data.section)
@@ -137,7 +159,12 @@ def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
     channels, turning = np.zeros((6, len(theta), 1)), np.zeros(len(theta))
     for i in range(len(theta)):
         total, r = inflow[i] + annuli.climb[i], annuli.r[i]
-        channels[TH, i, 0], channels[UT, i, 0], channels[UP, i, 0], channels[LOSS, i, 0] = theta[i], r, total, 1.0
+        channels[TH, i, 0], channels[UT, i, 0], channels[UP, i, 0], channels[LOSS, i, 0] = (
+            theta[i],
+            r,
+            total,
+            1.0,
+        )
         if annuli.swirls:
             swirl, slope = swirl_of(r, inflow[i] * total)
             channels[UT, i, 0] -= swirl
@@ -146,13 +173,18 @@ def _channels(theta: Any, inflow: Any, annuli: Any) -> Any:
 
 
 @_compile
-def _balance(theta: Any, inflow: Any, annuli: Any, half_solidity: Any, f: Any, d: Any, turning: Any) -> Any:
+def _balance(
+    theta: Any, inflow: Any, annuli: Any, half_solidity: Any, f: Any, d: Any, turning: Any
+) -> Any:
     """Momentum less lift of every annulus, its slope by λ_i, the lift, and its slope by pitch; last the slope of an
     annulus whose lift falls with λ_i or not at all, (5, elements). f, d: of the section; turning: of `_channels`."""
     out, closed = np.empty((5, len(theta))), len(annuli.slope) > 0
     for i in range(len(theta)):
         r, total = annuli.r[i], inflow[i] + annuli.climb[i]
-        (tip, tip_slope), (hub, hub_slope) = end_factor(annuli.ends[0, i], total), end_factor(annuli.ends[1, i], total)
+        (tip, tip_slope), (hub, hub_slope) = (
+            end_factor(annuli.ends[0, i], total),
+            end_factor(annuli.ends[1, i], total),
+        )
         factor, slope, size = tip * hub, tip_slope * hub + tip * hub_slope, abs(total)
         signed = math.copysign(inflow[i], inflow[i] * total)
         momentum = 4.0 * r * (size * (2.0 * factor + slope * inflow[i]) + factor * (signed - size))
@@ -226,8 +258,12 @@ def hover_system(problem: Problem, ct: float | None = None) -> System:
     """
     design, disk, torsion = problem.design, problem.disk, problem.torsion
     models, stand = design.models, design.condition.stand
-    solved: tuple[Unknown, ...] = () if stand is not None and stand.collective is not None else ("collective",)
-    cones: tuple[Unknown, ...] = ("coning",) if models.flapping and design.rotor.precone is None else ()
+    solved: tuple[Unknown, ...] = (
+        () if stand is not None and stand.collective is not None else ("collective",)
+    )
+    cones: tuple[Unknown, ...] = (
+        ("coning",) if models.flapping and design.rotor.precone is None else ()
+    )
     trim = Trim((*solved, *cones), (*("thrust" for _ in solved), *cones))
     values: dict[Hashable, float] = {**trim_numbers(problem)}
     shapes: dict[Shape, Array] = {"one": np.ones_like(disk.r), "r": disk.r, "arm": problem.arm}
@@ -242,9 +278,19 @@ def hover_system(problem: Problem, ct: float | None = None) -> System:
     windmill = is_windmill(problem.weight if ct is None else ct, problem.air.climb)
     thrust = math.copysign(problem.scale, problem.weight) if ct is None else ct
     (slope, zero), gust = lift_curve(problem) if closed else (none, none), problem.air.gust
-    climb = np.full_like(disk.r, problem.air.climb) if gust is None else problem.air.climb + gust[:, 0]
+    climb = (
+        np.full_like(disk.r, problem.air.climb) if gust is None else problem.air.climb + gust[:, 0]
+    )
     data = AnnulusData(
-        Annuli(r=disk.r, climb=climb, windmill=windmill, swirls=models.has("swirl"), ends=ends, slope=slope, zero=zero),
+        Annuli(
+            r=disk.r,
+            climb=climb,
+            windmill=windmill,
+            swirls=models.has("swirl"),
+            ends=ends,
+            slope=slope,
+            zero=zero,
+        ),
         section=problem.section_data(len(disk.psi)),
         start=np.full_like(disk.r, 0.0 if windmill else axial_inflow(thrust, problem.air.climb)),
     )
@@ -253,7 +299,9 @@ def hover_system(problem: Problem, ct: float | None = None) -> System:
     grid = Grid(wave_grid(structure.waves, 1), steady, {}, data)
     along, numbers = Shapes(structure, shapes, disk.dr), np.array([1.0, *values.values()])
     tolerance, limits = (size * np.ones(len(structure.equations)) for size in (problem.scale, 1.0))
-    return System(structure, along, grid, grid, _annulus_section, _nothing_made, numbers, tolerance, limits)
+    return System(
+        structure, along, grid, grid, _annulus_section, _nothing_made, numbers, tolerance, limits
+    )
 
 
 def hover_elements(problem: Problem, point: Point) -> BladeElements:
@@ -267,8 +315,12 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
     twist = None
     if torsion is not None:
         coordinates = np.zeros_like(problem.given_torsion)
-        coordinates[:, 0] = point.x[[atom for name, atom in states.items() if isinstance(name, tuple)]]
-        twist = TwistState(coordinates, everywhere(torsion.radial.T @ coordinates[:, 0]), everywhere(f[M, :, 0]))
+        coordinates[:, 0] = point.x[
+            [atom for name, atom in states.items() if isinstance(name, tuple)]
+        ]
+        twist = TwistState(
+            coordinates, everywhere(torsion.radial.T @ coordinates[:, 0]), everywhere(f[M, :, 0])
+        )
     return BladeElements(
         state=TrimState(collective=collective, coning=coning, lambda0=lambda0),
         flow=DiskFlow(0.0, problem.air.climb, lambda0),
@@ -288,7 +340,9 @@ def hover_elements(problem: Problem, point: Point) -> BladeElements:
 
 def _at_balance(point: Point) -> tuple[Array, Array]:
     """`_channels` at a point."""
-    return _channels(point.channels[TH, :, 0].copy(), point.forces[BALANCED, :, 0].copy(), point.grid.data.annuli)
+    return _channels(
+        point.channels[TH, :, 0].copy(), point.forces[BALANCED, :, 0].copy(), point.grid.data.annuli
+    )
 
 
 def turning_of(point: Point) -> Array:

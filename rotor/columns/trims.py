@@ -86,11 +86,20 @@ def with_given_values(problem: Problem, start: TrimState) -> TrimState:
     given: dict[str, float] = {}
     if not design.flaps:
         cyclic = {"cyclic_1c": stand.cyclic_1c, "cyclic_1s": stand.cyclic_1s} if stand else {}
-        given |= {"coning": 0.0, "cyclic_1c": 0.0, "cyclic_1s": 0.0, "flap_1c": 0.0, "flap_1s": 0.0} | cyclic
+        given |= {
+            "coning": 0.0,
+            "cyclic_1c": 0.0,
+            "cyclic_1s": 0.0,
+            "flap_1c": 0.0,
+            "flap_1s": 0.0,
+        } | cyclic
     elif _flapping(design) == "trimmed":
         given |= {"flap_1c": condition.flap_1c, "flap_1s": condition.flap_1s}
     elif _flapping(design) == "free":
-        given |= {"cyclic_1c": stand.cyclic_1c if stand else 0.0, "cyclic_1s": stand.cyclic_1s if stand else 0.0}
+        given |= {
+            "cyclic_1c": stand.cyclic_1c if stand else 0.0,
+            "cyclic_1s": stand.cyclic_1s if stand else 0.0,
+        }
     if models.flapping and design.rotor.precone is not None:
         given["coning"] = design.rotor.precone
     if models.trim == "thrust":
@@ -137,7 +146,9 @@ def add_equations(s: Structure, trim: Trim, drag: Sum, torque: Sum) -> None:
         match name:
             case "vertical" | "forward":
                 by_thrust, by_drag, sign, load = (
-                    (z["cos"], z["sin"], 1.0, "weight") if name == "vertical" else (z["sin"], z["cos"], -1.0, "drag")
+                    (z["cos"], z["sin"], 1.0, "weight")
+                    if name == "vertical"
+                    else (z["sin"], z["cos"], -1.0, "drag")
                 )
                 s.term(row, 1.0, by_thrust, q=thrust)
                 for share, atom, _, measure in drag:
@@ -154,7 +165,9 @@ def add_equations(s: Structure, trim: Trim, drag: Sum, torque: Sum) -> None:
                 s.term(row, -1.0, z["coning stiffness"], z["coning"])
                 s.term(row, -1.0, z["blade weight"])
             case "pitching" | "rolling":
-                sign, wave, given = (-1.0, COS, "hub pitch") if name == "pitching" else (1.0, SIN, "hub roll")
+                sign, wave, given = (
+                    (-1.0, COS, "hub pitch") if name == "pitching" else (1.0, SIN, "hub roll")
+                )
                 s.term(row, sign, q=q(FZ, "r", wave))
                 s.term(row, -1.0, z[given])
             case "flap_1c" | "flap_1s":

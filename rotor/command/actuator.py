@@ -13,7 +13,14 @@ from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, break_even, break_even_chart, pay_sentence
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, pay_table, table_5_1, table_5_2
-from rotor.actuator.verdict import Verdict, judge, part_words, reference, verdict_details, verdict_sentence
+from rotor.actuator.verdict import (
+    Verdict,
+    judge,
+    part_words,
+    reference,
+    verdict_details,
+    verdict_sentence,
+)
 from rotor.command import common
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
@@ -29,27 +36,47 @@ def add_parser(commands: Any) -> None:
     words = "actuator (default MFC_P1); --table 5.1 lists all"
     parser.add_argument("--actuator", metavar="ID", default="MFC_P1", help=words)
     parser.add_argument("--plies", type=int, default=2, metavar="N", help=common.PLIES_HELP)
-    parser.add_argument("--concept", default="linear", metavar="NAME", help=f"{common.CONCEPT_HELP} (default linear)")
+    parser.add_argument(
+        "--concept",
+        default="linear",
+        metavar="NAME",
+        help=f"{common.CONCEPT_HELP} (default linear)",
+    )
     parser.add_argument("--division", metavar="R,…", help=common.DIVISION_HELP)
     for flag, value, metavar, words in (
         ("--from-mu", 0.0, "MU", "advance ratio of the first condition (default hover)"),
         ("--to-mu", 0.3, "MU", "advance ratio of the second condition (default 0.3)"),
         ("--share", 0.5, "0…1", "fraction of time in the second condition (default 0.5)"),
-        ("--stiffness", None, "G", "with --blade new: its GJ relative to the existing blade (default 0.5)"),
+        (
+            "--stiffness",
+            None,
+            "G",
+            "with --blade new: its GJ relative to the existing blade (default 0.5)",
+        ),
         ("--angle-deg", 45.0, "DEG", "fibre angle to the span (default 45)"),
     ):
         parser.add_argument(flag, type=common.finite, default=value, metavar=metavar, help=words)
     blades = ("retrofit", "new")
-    parser.add_argument("--blade", choices=blades, default=blades[0], help="existing blade (default) or a new one")
+    parser.add_argument(
+        "--blade", choices=blades, default=blades[0], help="existing blade (default) or a new one"
+    )
     parser.add_argument("--span", metavar="A:B", help="active span in r/R (default 0.2433:0.9292)")
     parser.add_argument("--chord", metavar="A:B", help="active chord in x/c (default 0.05:0.80)")
-    words = "compare with the same blade without the actuator (default), or with the best fixed twist"
-    parser.add_argument("--against", choices=("same-blade", "best-fixed"), default="same-blade", help=words)
+    words = (
+        "compare with the same blade without the actuator (default), or with the best fixed twist"
+    )
+    parser.add_argument(
+        "--against", choices=("same-blade", "best-fixed"), default="same-blade", help=words
+    )
     words = "print table 5.1 (actuators) or 5.2 (net savings) of the thesis instead"
     parser.add_argument("--table", choices=("5.1", "5.2"), help=words)
     words = "print what an actuator would need to pay on this rotor (all: on each rotor)"
-    parser.add_argument("--what-would-pay", nargs="?", choices=("this", "all"), const="this", help=words)
-    parser.add_argument("--plot", metavar="FILE.svg", help="with --what-would-pay: draw the break-even line")
+    parser.add_argument(
+        "--what-would-pay", nargs="?", choices=("this", "all"), const="this", help=words
+    )
+    parser.add_argument(
+        "--plot", metavar="FILE.svg", help="with --what-would-pay: draw the break-even line"
+    )
     common.add_design_arguments(parser)
     common.add_output_arguments(parser)
 
@@ -58,12 +85,19 @@ def run(args: argparse.Namespace) -> int:
     """Exit code 0, or 1 where nothing trims."""
     if args.table == "5.1":
         return _show(args, table_5_1())
-    actuator, concept = find_actuator(args.actuator), find_concept(args.concept, common.parse_division(args.division))
-    pair = ConditionPair(common.design_from(args, mu=args.from_mu), (args.from_mu, args.to_mu), args.share)
+    actuator, concept = (
+        find_actuator(args.actuator),
+        find_concept(args.concept, common.parse_division(args.division)),
+    )
+    pair = ConditionPair(
+        common.design_from(args, mu=args.from_mu), (args.from_mu, args.to_mu), args.share
+    )
     if args.what_would_pay is None:
         check_blade(pair.design.aircraft)
     pair.designs()  # Bad input is reported before anything is computed.
-    stiffness = (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
+    stiffness = (
+        (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
+    )
     placement, host = _placement(args), HostBlade(args.blade, stiffness)
     if args.plot is not None and args.what_would_pay is None:
         raise ValueError("--plot draws the break-even line: add --what-would-pay")
@@ -77,7 +111,11 @@ def run(args: argparse.Namespace) -> int:
             return _show(args, table_5_2(pair, placement=placement, host=host))
         verdict = judge(actuator, pair, concept, placement, host, against=args.against)
     except RuntimeError as error:
-        print(json.dumps(failure(args, str(error)), indent=2) if args.json else f"not converged: {error}")
+        print(
+            json.dumps(failure(args, str(error)), indent=2)
+            if args.json
+            else f"not converged: {error}"
+        )
         return 1
     common.print_result(args, lambda: record(verdict), lambda: report(verdict))
     return 0
@@ -103,7 +141,9 @@ def record(verdict: Verdict) -> dict[str, Any]:
         "stiffness_cost_w": verdict.stiffness_cost,
         "mass_cost_w": verdict.mass_cost,
         "drive_cost_w": verdict.drive_cost,
-        "part_bands_w": {name: doubt and doubt.change_band for name, doubt in verdict.parts_doubt.items()},
+        "part_bands_w": {
+            name: doubt and doubt.change_band for name, doubt in verdict.parts_doubt.items()
+        },
         "net_saving_w": verdict.net_saving,
         "net_saving_band_w": verdict.net_band,
         "fuel_saving_kg_h": None if verdict.fuel_saving is None else 3600.0 * verdict.fuel_saving,
@@ -125,9 +165,13 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
         "voltages_v": [],
         **dict.fromkeys(("added_mass_kg", "torsion_frequency_per_rev")),
         "against": args.against,
-        **dict.fromkeys(("ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w")),
+        **dict.fromkeys(
+            ("ideal_saving_w", "gross_saving_w", "stiffness_cost_w", "mass_cost_w", "drive_cost_w")
+        ),
         "part_bands_w": None,
-        **dict.fromkeys(("net_saving_w", "net_saving_band_w", "fuel_saving_kg_h", "fuel_band_kg_h")),
+        **dict.fromkeys(
+            ("net_saving_w", "net_saving_band_w", "fuel_saving_kg_h", "fuel_band_kg_h")
+        ),
         "limits": [],
         "caveats": [],
     }
@@ -137,19 +181,29 @@ def report(verdict: Verdict) -> str:
     installed, base = verdict.installed, verdict.baseline
     masses = installed.masses
     first, second = (best.power / 1e3 for best in base.best)
-    twists = [common.short_spec(base.concept.twist(best.values).spec()) for best in (*base.best, base.fixed)]
+    twists = [
+        common.short_spec(base.concept.twist(best.values).spec())
+        for best in (*base.best, base.fixed)
+    ]
     gross = dict(verdict.savings)["gross"]
     lines = [
         verdict_sentence(verdict),
         wrapped(verdict_details(verdict)),
         "",
-        wrapped(f"optimum at each condition     {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)", " " * 30),
+        wrapped(
+            f"optimum at each condition     {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
+            " " * 30,
+        ),
         f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
         "",
         f"savings against {reference(verdict)}",
         f"  gross, by its twist         {part_words(verdict, 'gross', gross)}  "
         f"(unlimited twist {part_words(verdict, 'ideal', verdict.ideal_saving)})",
-        *(f"  {name:<28}{part_words(verdict, name, part)}" for name, part in verdict.savings if name != "gross"),
+        *(
+            f"  {name:<28}{part_words(verdict, name, part)}"
+            for name, part in verdict.savings
+            if name != "gross"
+        ),
         f"  net                         {part_words(verdict, 'net', verdict.net_saving)}",
         "",
         f"twist required    {math.degrees(verdict.required):8.2f} °  (sum of segments)",
@@ -164,7 +218,9 @@ def report(verdict: Verdict) -> str:
     ]
     edges = (base.pair.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
     for k, (a, b) in enumerate(verdict.voltages):
-        lines.append(f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V")
+        lines.append(
+            f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V"
+        )
     met = (f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)
     lines += ["", *(wrapped(limit, " " * 9) for limit in met)]
     return "\n".join([*lines, *(wrapped(f"caveat: {caveat}", "  ") for caveat in verdict.caveats)])
@@ -183,7 +239,11 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
         write_whole(args.plot, svg(break_even_chart(lines[0])))
     if args.json:
         records = [pay_record(line) for line in lines]
-        print(json.dumps(records if args.what_would_pay == "all" else records[0], indent=2, allow_nan=False))
+        print(
+            json.dumps(
+                records if args.what_would_pay == "all" else records[0], indent=2, allow_nan=False
+            )
+        )
         return 0
     print(pay_table(lines).text())
     if args.what_would_pay == "this":
@@ -194,7 +254,11 @@ def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
 def pay_record(even: BreakEven) -> dict[str, Any]:
     """The JSON of `actuator --what-would-pay --json`; masses are of all blades."""
     needed = even.requirement
-    pays = {"twist_deg": math.degrees(needed.twist), "mass_kg": needed.mass, "drive_w": needed.drive}
+    pays = {
+        "twist_deg": math.degrees(needed.twist),
+        "mass_kg": needed.mass,
+        "drive_w": needed.drive,
+    }
     return {
         "rotor": even.pair.design.aircraft.name,
         "advance_ratios": list(even.pair.advance_ratios),
@@ -212,14 +276,26 @@ def pay_record(even: BreakEven) -> dict[str, Any]:
 
 
 def _show(args: argparse.Namespace, table: ActuatorTable) -> int:
-    common.print_result(args, lambda: {key: value for key, value in asdict(table).items() if key != "keys"}, table.text)
+    common.print_result(
+        args,
+        lambda: {key: value for key, value in asdict(table).items() if key != "keys"},
+        table.text,
+    )
     return 0
 
 
 def _placement(args: argparse.Namespace) -> Placement:
     base = default_placement(args.plies)
-    span = common.parse_pair(args.span, f"active span {args.span!r}", "0.25:0.9", ":") if args.span else base.span
-    chord = common.parse_pair(args.chord, f"active chord {args.chord!r}", "0.05:0.8", ":") if args.chord else base.chord
+    span = (
+        common.parse_pair(args.span, f"active span {args.span!r}", "0.25:0.9", ":")
+        if args.span
+        else base.span
+    )
+    chord = (
+        common.parse_pair(args.chord, f"active chord {args.chord!r}", "0.05:0.8", ":")
+        if args.chord
+        else base.chord
+    )
     if not 0.0 < args.angle_deg < 90.0:
         raise ValueError(
             f"fibre angle {args.angle_deg:g}° is not between 0 and 90°: choose a value inside; 45 gives the most twist"

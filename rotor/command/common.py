@@ -36,7 +36,9 @@ from rotor.support.user_input import check_writable, parse_range
 Run = Callable[[argparse.Namespace], int]
 
 
-def add_command(commands: Any, name: str, run: Run, description: str = "") -> argparse.ArgumentParser:
+def add_command(
+    commands: Any, name: str, run: Run, description: str = ""
+) -> argparse.ArgumentParser:
     """Add the parser of a command. Its summary in the list of commands also heads its own help unless another is
     given."""
     _, words, examples = COMMANDS[name]
@@ -51,7 +53,11 @@ _FLAGS = {name: row for name, row in ARGUMENTS.items() if name not in ("models",
 
 
 def add_design_arguments(
-    parser: argparse.ArgumentParser, *, speed: bool = False, twists: bool = False, ranges: bool = False
+    parser: argparse.ArgumentParser,
+    *,
+    speed: bool = False,
+    twists: bool = False,
+    ranges: bool = False,
 ) -> None:
     """Add a flag for every argument of `make_design`: those of the speed, several twists and ranges only on demand."""
     parser.usage = "%(prog)s [flags]"
@@ -93,7 +99,11 @@ def _how(row: Quantity) -> dict[str, Any]:
         case "whole":
             return {"help": row.help, "type": int, "metavar": "N"}
         case "number":
-            return {"help": row.help, "type": finite, "metavar": _SYMBOLS.get(row.unit, row.unit.upper() or "X")}
+            return {
+                "help": row.help,
+                "type": finite,
+                "metavar": _SYMBOLS.get(row.unit, row.unit.upper() or "X"),
+            }
         case _:
             return {"help": row.help_with(choices), "metavar": _METAVARS.get(row.name, "NAME")}
 
@@ -117,7 +127,9 @@ def _range(text: str) -> list[float]:
         raise argparse.ArgumentTypeError(str(error)) from None
 
 
-def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | None = None) -> Design:
+def design_from(
+    args: argparse.Namespace, twist: str | None = None, mu: float | None = None
+) -> Design:
     """The design that the flags describe; `twist` and `mu` in place of theirs. Raises ValueError with one sentence."""
     given = {name: getattr(args, name, None) for name in _FLAGS if name not in SPEED}
     speed = {name: getattr(args, name, None) for name in SPEED} if mu is None else {"mu": mu}
@@ -130,9 +142,13 @@ def design_from(args: argparse.Namespace, twist: str | None = None, mu: float | 
     known = case is not None and rotor is None and case.condition.stand is not None
     isolated = (rotor or (case and case.aircraft) or find_aircraft(SHIPPED_ROTORS[0])).isolated
     if stand and (args.trim in ("propulsive", "thrust") or not (args.trim or known or isolated)):
-        raise ValueError(f"{next(iter(stand))} belongs to a test stand: add --trim wind-tunnel, free-rotor or controls")
+        raise ValueError(
+            f"{next(iter(stand))} belongs to a test stand: add --trim wind-tunnel, free-rotor or controls"
+        )
     changed: dict[str, Any] = (
-        given | speed | {"case": case, "rotor": rotor, "stand": stand or None, "twist": twist or given["twist"]}
+        given
+        | speed
+        | {"case": case, "rotor": rotor, "stand": stand or None, "twist": twist or given["twist"]}
     )
     return make_design(**{name: value for name, value in changed.items() if value is not None})
 
@@ -141,7 +157,9 @@ def add_output_arguments(parser: argparse.ArgumentParser, csv: str = "") -> Any:
     """`--json`, and `--csv` where its words name what is written; returns the group for further flags."""
     group = parser.add_argument_group("output")
     if csv:
-        group.add_argument("--csv", metavar="FILE", help=f"also write {csv} as CSV; with - print nothing else")
+        group.add_argument(
+            "--csv", metavar="FILE", help=f"also write {csv} as CSV; with - print nothing else"
+        )
     group.add_argument("--json", action="store_true", help="print the answer as JSON")
     return group
 
@@ -154,7 +172,9 @@ def check_output(args: argparse.Namespace) -> None:
         check_writable(args.csv)
 
 
-def print_result(args: argparse.Namespace, record: Callable[[], Any], report: Callable[[], str]) -> None:
+def print_result(
+    args: argparse.Namespace, record: Callable[[], Any], report: Callable[[], str]
+) -> None:
     """Print the answer of a command: with --json the record, else the report; nothing after `--csv -`."""
     if getattr(args, "csv", None) == "-":
         return
@@ -189,8 +209,12 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     search = parser.add_argument_group("search")
     words = f"starting points per search (default {starts})"
     search.add_argument("--starts", type=int, default=starts, metavar="N", help=words)
-    search.add_argument("--seed", type=int, default=0, metavar="N", help="seed of the starting points (default 0)")
-    search.add_argument("--on-top", action="store_true", help="add the concept to the design's own twist")
+    search.add_argument(
+        "--seed", type=int, default=0, metavar="N", help="seed of the starting points (default 0)"
+    )
+    search.add_argument(
+        "--on-top", action="store_true", help="add the concept to the design's own twist"
+    )
     limits = parser.add_argument_group("limits")
     words = "bounds of one parameter in degrees or r/R, e.g. --bound outboard_rate=-20,0; may be repeated"
     limits.add_argument("--bound", action="append", default=[], metavar="NAME=LOW,HIGH", help=words)
@@ -215,7 +239,9 @@ def limits_from(args: argparse.Namespace, design: Design, concepts: tuple[Concep
         name, _, numbers = str(text).partition("=")
         name = name.removesuffix("_deg")
         if name not in units:
-            raise ValueError(f"bound {text!r} does not name a parameter: use one of {', '.join(units)}")
+            raise ValueError(
+                f"bound {text!r} does not name a parameter: use one of {', '.join(units)}"
+            )
         low, high = parse_pair(numbers, f"bound {text!r}", f"{name}=-20,0")
         bounds.append((name, units[name].from_shown(low), units[name].from_shown(high)))
     rate = None
@@ -239,7 +265,9 @@ def _change(args: argparse.Namespace, design: Design) -> ChangeLimit | None:
             raise ValueError("--plies needs an actuator: add --actuator, for example MFC_P1")
         return None
     if args.change_deg is not None:
-        raise ValueError("--change-deg and --actuator both limit the change of twist: give one of them")
+        raise ValueError(
+            "--change-deg and --actuator both limit the change of twist: give one of them"
+        )
     placement = default_placement(2 if args.plies is None else args.plies)
     installed = install(find_actuator(args.actuator), placement, HostBlade(), design.rotor)
     return change_limit(installed, design.twist, root=design.rotor.blade.root_cutout)
@@ -261,7 +289,9 @@ def short_spec(spec: str) -> str:
 
 CONCEPT_HELP = f"twist concept: {' | '.join(CONCEPTS)}"
 DIVISION_HELP = "breaks of the segments in r/R, e.g. 0.5, or 0.48,0.84 for three segments"
-MISSION_HELP = f"CSV file with the columns {','.join(MISSION_COLUMNS)}: search for the least mean power"
+MISSION_HELP = (
+    f"CSV file with the columns {','.join(MISSION_COLUMNS)}: search for the least mean power"
+)
 PLIES_HELP = "plies of the actuator per skin, or number of torque tubes (default 2)"
 
 
@@ -271,7 +301,9 @@ def parse_division(text: str | None) -> tuple[float, ...] | None:
         return None
     values = _finite_numbers(text, ",")
     if not values:
-        raise ValueError(f"division {text!r} is not understood: write r/R, for example 0.5 or 0.48,0.84")
+        raise ValueError(
+            f"division {text!r} is not understood: write r/R, for example 0.5 or 0.48,0.84"
+        )
     return values
 
 
@@ -302,7 +334,9 @@ STOPPED = 130
 def bar(total: int | None, unit: str) -> Generator[Callable[[str], None]]:
     """A progress bar on stderr if that is a terminal; call it with a short text to advance it by one."""
     hidden = not sys.stderr.isatty()
-    shown: Any = ProgressBar(total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True, disable=hidden)
+    shown: Any = ProgressBar(
+        total=total, unit=unit, file=sys.stderr, leave=False, dynamic_ncols=True, disable=hidden
+    )
 
     def advance(words: str) -> None:
         shown.set_postfix_str(words, refresh=False)

@@ -30,7 +30,12 @@ from rotor.trim.solution import Solution
 
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "optimise", run)
-    parser.add_argument("--concept", default="linear", metavar="NAME", help=f"{common.CONCEPT_HELP} (default linear)")
+    parser.add_argument(
+        "--concept",
+        default="linear",
+        metavar="NAME",
+        help=f"{common.CONCEPT_HELP} (default linear)",
+    )
     parser.add_argument("--division", metavar="R,…", help=common.DIVISION_HELP)
     parser.add_argument(
         "--objective",
@@ -44,7 +49,9 @@ def add_parser(commands: Any) -> None:
     parser.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
     words = "omit the range of each parameter that costs 0.1 %% of power"
     parser.add_argument("--no-band", dest="band", action="store_false", help=words)
-    parser.add_argument("--doubt", action="store_true", help="also search with other models, masses and drag areas")
+    parser.add_argument(
+        "--doubt", action="store_true", help="also search with other models, masses and drag areas"
+    )
     common.add_design_arguments(parser, speed=True)
     common.add_search_arguments(parser, STARTS)
     common.add_output_arguments(parser)
@@ -59,7 +66,9 @@ def run(args: argparse.Namespace) -> int:
     objective = _objective(args, design)
     alone = objective == at_condition(design)
     if args.doubt and not alone:
-        raise ValueError("--doubt needs the least total power of one condition: leave --mission and --objective out")
+        raise ValueError(
+            "--doubt needs the least total power of one condition: leave --mission and --objective out"
+        )
     limits = common.limits_from(args, design, (concept,))
     search = Search(design, concept, objective, limits, args.starts, args.seed, band=args.band)
     with common.interruptible() as stop, common.bar(None, " designs") as advance:
@@ -71,13 +80,19 @@ def run(args: argparse.Namespace) -> int:
         if args.doubt:
             beside = replace(beside, flights=_in_other_flights(search, optimum.best))
         if args.doubt or (design.hovering and alone):
-            beside = replace(beside, models=_from(search, optimum.best, other_models(design).items()))
+            beside = replace(
+                beside, models=_from(search, optimum.best, other_models(design).items())
+            )
     common.print_result(
-        args, lambda: record(optimum, concept, beside), lambda: report(optimum, concept, beside, objective)
+        args,
+        lambda: record(optimum, concept, beside),
+        lambda: report(optimum, concept, beside, objective),
     )
-    return {SearchStatus.CONVERGED: 0, SearchStatus.NOT_CONVERGED: 1, SearchStatus.STOPPED: common.STOPPED}[
-        optimum.status
-    ]
+    return {
+        SearchStatus.CONVERGED: 0,
+        SearchStatus.NOT_CONVERGED: 1,
+        SearchStatus.STOPPED: common.STOPPED,
+    }[optimum.status]
 
 
 @dataclass(frozen=True)
@@ -100,12 +115,16 @@ def _extra_results(design: Design, objective: Objective, optimum: Optimum) -> _E
     if optimum.best is None:
         return _ExtraResults()
     solutions = evaluate_objective(objective, optimum.design, gradient=False).solutions
-    caveats = dict.fromkeys(caveat.sentence for solution in solutions for caveat in solution.caveats)
+    caveats = dict.fromkeys(
+        caveat.sentence for solution in solutions for caveat in solution.caveats
+    )
     changed = optimum.design.rotor.blade.spans != design.rotor.blade.spans
     start = replace(design, rotor=optimum.design.rotor)
     same = saving_doubt(objective, optimum.design, start) if changed else None
     return _ExtraResults(
-        tuple(caveats), None if optimum.best.index is None else _index_band(objective, solutions), same
+        tuple(caveats),
+        None if optimum.best.index is None else _index_band(objective, solutions),
+        same,
     )
 
 
@@ -120,11 +139,16 @@ def _in_other_flights(search: Search, best: Minimum) -> tuple[tuple[str, Optimum
     return _from(search, best, designs)
 
 
-def _from(search: Search, best: Minimum, designs: Iterable[tuple[str, Design]]) -> tuple[tuple[str, Optimum], ...]:
+def _from(
+    search: Search, best: Minimum, designs: Iterable[tuple[str, Design]]
+) -> tuple[tuple[str, Optimum], ...]:
     """Optima of other designs, from the same best twist."""
     other = replace(search, objective=None, guesses=(best.parameters,), starts=1, band=False)
     found = [(name, design, run_search(replace(other, design=design))) for name, design in designs]
-    return tuple((name, _with_doubt(optimum, at_condition(design), design)) for name, design, optimum in found)
+    return tuple(
+        (name, _with_doubt(optimum, at_condition(design), design))
+        for name, design, optimum in found
+    )
 
 
 def _with_doubt(optimum: Optimum, objective: Objective, start: Design) -> Optimum:
@@ -133,26 +157,45 @@ def _with_doubt(optimum: Optimum, objective: Objective, start: Design) -> Optimu
 
 def _index_band(objective: Objective, solutions: Sequence[Solution]) -> tuple[float, float] | None:
     """Least and largest mean index of some trims over inflow models [%]."""
-    ends = [loads.band for each in solutions if (loads := hub_loads(each)) is not None and loads.band is not None]
+    ends = [
+        loads.band
+        for each in solutions
+        if (loads := hub_loads(each)) is not None and loads.band is not None
+    ]
     if len(ends) < len(solutions):
         return None
-    low, high = (sum(share * end[k] for share, end in zip(objective.shares, ends, strict=True)) for k in (0, 1))
+    low, high = (
+        sum(share * end[k] for share, end in zip(objective.shares, ends, strict=True))
+        for k in (0, 1)
+    )
     return low, high
 
 
 def _objective(args: argparse.Namespace, design: Design) -> Objective:
     if args.objective == "hover-cruise":
         if args.mission or args.hover:
-            raise ValueError("objective hover-cruise sets its own conditions: omit --mission and --hover")
+            raise ValueError(
+                "objective hover-cruise sets its own conditions: omit --mission and --hover"
+            )
         return hover_and_cruise(
-            design, 0.5 if args.hover_share is None else args.hover_share, design.condition.advance_ratio
+            design,
+            0.5 if args.hover_share is None else args.hover_share,
+            design.condition.advance_ratio,
         )
     if args.hover_share is not None:
-        raise ValueError(f"hover share {args.hover_share:g} needs its objective: add --objective hover-cruise")
+        raise ValueError(
+            f"hover share {args.hover_share:g} needs its objective: add --objective hover-cruise"
+        )
     if args.objective not in QUANTITIES:
-        raise ValueError(f"objective {args.objective!r} is not known: use {', '.join(QUANTITIES)} or hover-cruise")
+        raise ValueError(
+            f"objective {args.objective!r} is not known: use {', '.join(QUANTITIES)} or hover-cruise"
+        )
     objective = at_condition(design, args.objective)
-    return replace(objective, conditions=read_mission(args.mission, design)) if args.mission else objective
+    return (
+        replace(objective, conditions=read_mission(args.mission, design))
+        if args.mission
+        else objective
+    )
 
 
 def _words(progress: Progress) -> str:
@@ -163,7 +206,10 @@ def _words(progress: Progress) -> str:
 
 def named(concept: Concept, values: tuple[float, ...]) -> dict[str, float]:
     """Parameters by label, degrees in labels that end in _deg."""
-    return {one.label: round(one.shown(value), 6) for one, value in zip(concept.parameters, values, strict=True)}
+    return {
+        one.label: round(one.shown(value), 6)
+        for one, value in zip(concept.parameters, values, strict=True)
+    }
 
 
 def record(optimum: Optimum, concept: Concept, beside: _ExtraResults) -> dict[str, Any]:
@@ -178,7 +224,11 @@ def record(optimum: Optimum, concept: Concept, beside: _ExtraResults) -> dict[st
         "power_w": None if best is None else best.power,
         "baseline_power_w": optimum.baseline_power,
         "saving_percent": None if optimum.saving is None else 100.0 * optimum.saving,
-        **({} if best is None or best.index is None else index | {"baseline_index_percent": optimum.baseline_index}),
+        **(
+            {}
+            if best is None or best.index is None
+            else index | {"baseline_index_percent": optimum.baseline_index}
+        ),
         "band": _bands(concept, optimum.band),
         "local_minima": [_minimum(minimum, concept) for minimum in optimum.minima],
         "evaluations": optimum.evaluations,
@@ -193,8 +243,16 @@ def record(optimum: Optimum, concept: Concept, beside: _ExtraResults) -> dict[st
         "seed": optimum.seed,
         "same_airfoils_power_w": beside.same_airfoils and beside.same_airfoils.against,
         "caveats": list(beside.caveats),
-        **({"models": {name: _other(other, concept) for name, other in beside.models}} if beside.models else {}),
-        **({"flights": {name: _other(other, concept) for name, other in beside.flights}} if beside.flights else {}),
+        **(
+            {"models": {name: _other(other, concept) for name, other in beside.models}}
+            if beside.models
+            else {}
+        ),
+        **(
+            {"flights": {name: _other(other, concept) for name, other in beside.flights}}
+            if beside.flights
+            else {}
+        ),
     }
 
 
@@ -209,14 +267,19 @@ def _other(optimum: Optimum, concept: Concept) -> dict[str, Any]:
 
 def _sure(optimum: Optimum) -> dict[str, float | str | None]:
     doubt = optimum.doubt
-    return {"saving_doubt_percent": doubt and doubt.change_band_percent, "sureness": doubt and doubt.sureness}
+    return {
+        "saving_doubt_percent": doubt and doubt.change_band_percent,
+        "sureness": doubt and doubt.sureness,
+    }
 
 
 def _bands(concept: Concept, bands: Sequence[ParameterBand]) -> dict[str, list[float]]:
     """By label, low and high."""
     by_name = {parameter.name: parameter for parameter in concept.parameters}
     return {
-        by_name[band.parameter].label: [round(by_name[band.parameter].shown(end), 6) for end in (band.low, band.high)]
+        by_name[band.parameter].label: [
+            round(by_name[band.parameter].shown(end), 6) for end in (band.low, band.high)
+        ]
         for band in bands
     }
 
@@ -260,8 +323,12 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
             line += f"   {low:z.{digits}f} to {high:z.{digits}f} within 0.1 % of the {least}"
         if sure := doubts.get(parameter.name):
             low, high = parameter.shown(sure.low), parameter.shown(sure.high)
-            causes = ", ".join(f"{words} {parameter.shown(by):+z.{digits}f}" for words, by in sure.causes)
-            line += f", {low:z.{digits}f} to {high:z.{digits}f} with other inputs or inflow ({causes})"
+            causes = ", ".join(
+                f"{words} {parameter.shown(by):+z.{digits}f}" for words, by in sure.causes
+            )
+            line += (
+                f", {low:z.{digits}f} to {high:z.{digits}f} with other inputs or inflow ({causes})"
+            )
         for line_rate in _in_hover(beside, optimum, k):
             low, high = sorted((parameter.shown(value), parameter.shown(line_rate)))
             line += f", {low:z.{digits}f} to {high:z.{digits}f} between annuli and a lifting line"
@@ -271,10 +338,13 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
     if airfoils:
         lines.append(f"airfoils {airfoils}")
     lines.append(
-        f"power {power_text(best.power, 1)}" + (f"; active limits: {', '.join(best.active)}" if best.active else "")
+        f"power {power_text(best.power, 1)}"
+        + (f"; active limits: {', '.join(best.active)}" if best.active else "")
     )
     if optimum.baseline_power is not None and optimum.saving is not None:
-        lines.append(f"starting design {power_text(optimum.baseline_power, 1)}; the best {optimum.saving_words}")
+        lines.append(
+            f"starting design {power_text(optimum.baseline_power, 1)}; the best {optimum.saving_words}"
+        )
         if optimum.doubt_cost is not None:
             cost = power_text(optimum.doubt_cost, 1)
             lines.append(
@@ -282,19 +352,29 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
             )
     if best.index is not None:
         low, high = beside.index_band or (best.index, best.index)
-        before = "" if optimum.baseline_index is None else f"; starting design {optimum.baseline_index:.2f} %"
+        before = (
+            ""
+            if optimum.baseline_index is None
+            else f"; starting design {optimum.baseline_index:.2f} %"
+        )
         lines.append(
             f"index {best.index:.2f} % of the weight, {low:.1f} to {high:.1f} % over inflow models: for comparison, "
             f"not an absolute level{before}"
         )
     if beside.same_airfoils is not None:
         power = power_text(beside.same_airfoils.against or 0.0, 1)
-        lines.append(f"starting twist on these airfoils {power}; the best {beside.same_airfoils.saving_words}")
+        lines.append(
+            f"starting twist on these airfoils {power}; the best {beside.same_airfoils.saving_words}"
+        )
     for name, outcome in (*beside.models, *beside.flights):
         twist = "no optimum" if outcome.best is None else common.short_spec(outcome.best.twist)
-        lines.append(f"with {name}: {twist}" + (f", {outcome.saving_words}" if outcome.saving_words else ""))
+        lines.append(
+            f"with {name}: {twist}" + (f", {outcome.saving_words}" if outcome.saving_words else "")
+        )
     for other in optimum.minima[1:]:
-        lines.append(f"local minimum: {power_text(other.power, 1)} with {common.short_spec(other.twist)}")
+        lines.append(
+            f"local minimum: {power_text(other.power, 1)} with {common.short_spec(other.twist)}"
+        )
     lines.append(f"{optimum.evaluations} evaluations, {optimum.elapsed:.2g} s")
     lines += [wrapped(f"caveat: {caveat}", "  ") for caveat in beside.caveats]
     return "\n".join(lines)

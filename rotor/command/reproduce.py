@@ -6,18 +6,36 @@ import time
 from collections.abc import Iterable
 from typing import Any
 
-from rotor.command.common import STOPPED, add_command, add_processes_argument, bar, interruptible, processes_from
+from rotor.command.common import (
+    STOPPED,
+    add_command,
+    add_processes_argument,
+    bar,
+    interruptible,
+    processes_from,
+)
 from rotor.support.progress import ProgressBar
 from rotor.support.user_input import make_folder
 
 
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "reproduce", run)
-    parser.add_argument("out", metavar="OUT_DIR", help="folder for CSV, SVG, PNG and results.json; created if missing")
-    parser.add_argument("--figure", metavar="N", action="append", help="only this figure, e.g. 3.11; may be repeated")
+    parser.add_argument(
+        "out",
+        metavar="OUT_DIR",
+        help="folder for CSV, SVG, PNG and results.json; created if missing",
+    )
+    parser.add_argument(
+        "--figure",
+        metavar="N",
+        action="append",
+        help="only this figure, e.g. 3.11; may be repeated",
+    )
     number = "table {}".format
     words = "only this table, e.g. 4.1"
-    parser.add_argument("--table", metavar="N", action="append", dest="figure", type=number, help=words)
+    parser.add_argument(
+        "--table", metavar="N", action="append", dest="figure", type=number, help=words
+    )
     words = "also write the trust page: validation.md, validation/, trust.csv"
     parser.add_argument("--trust", action="store_true", help=words)
     add_processes_argument(parser)
@@ -29,7 +47,13 @@ def run(args: argparse.Namespace) -> int:
     from rotor.support.plots import drawing_module
     from rotor.support.units import typographic
     from rotor.validation.page import SETS, write_trust
-    from rotor.validation.thesis.catalogue import ENTRIES, CatalogueEntry, find_entry, searches_of, trust_sets
+    from rotor.validation.thesis.catalogue import (
+        ENTRIES,
+        CatalogueEntry,
+        find_entry,
+        searches_of,
+        trust_sets,
+    )
     from rotor.validation.thesis.files import write_report, write_results, written
     from rotor.validation.thesis.report import Report
     from rotor.validation.thesis.runs import compute_ahead
@@ -39,7 +63,8 @@ def run(args: argparse.Namespace) -> int:
         raise ValueError("--trust needs every figure: leave --figure out")
     processes = processes_from(args)
     wanted = [find_entry(number) for number in args.figure or ()]
-    entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)  # In the thesis' order.
+    # In the thesis' order.
+    entries = [entry for entry in ENTRIES if entry in wanted] if wanted else list(ENTRIES)
     folder = make_folder(args.out)
     begin = time.perf_counter()
     reports: list[tuple[CatalogueEntry, Report]] = []
@@ -54,7 +79,9 @@ def run(args: argparse.Namespace) -> int:
                 report = entry.make()
                 write_report(report, folder)
             reports.append((entry, report))
-            ProgressBar.write(f"{report.title:<14}{report.verdict.value:<18}{typographic(report.finding)}")
+            ProgressBar.write(
+                f"{report.title:<14}{report.verdict.value:<18}{typographic(report.finding)}"
+            )
             ProgressBar.write(f"{'':<14}{'the document:':<18}{typographic(report.statement)}")
 
     fast = [entry for entry in entries if not entry.slow]

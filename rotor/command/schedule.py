@@ -25,13 +25,19 @@ _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 def add_parser(commands: Any) -> None:
     parser = common.add_command(commands, "schedule", run)
     words = f"{common.CONCEPT_HELP} | all (default {', '.join(DEFAULT_CONCEPTS)})"
-    parser.add_argument("--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=words)
-    parser.add_argument("--division", metavar="R", help="break of two-segment concepts in r/R (default 0.5)")
+    parser.add_argument(
+        "--concept", nargs="+", default=list(DEFAULT_CONCEPTS), metavar="NAME", help=words
+    )
+    parser.add_argument(
+        "--division", metavar="R", help="break of two-segment concepts in r/R (default 0.5)"
+    )
     where = parser.add_mutually_exclusive_group()
     words = f"range of advance ratios, equal hours at each (default {DEFAULT_MU})"
     where.add_argument("--mu", dest="range", metavar="A:B:STEP", help=words)
     where.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
-    parser.add_argument("--objective", default="total", choices=POWERS, help="power to minimise (default total)")
+    parser.add_argument(
+        "--objective", default="total", choices=POWERS, help="power to minimise (default total)"
+    )
     common.add_processes_argument(parser)
     common.add_design_arguments(parser)
     common.add_search_arguments(parser, 4)
@@ -47,7 +53,9 @@ def run(args: argparse.Namespace) -> int:
     with common.interruptible() as stop, common.bar(total, " optima") as advance:
 
         def add(cell: ScheduleOptimum) -> None:
-            advance(f"{cell.concept} {'fixed' if cell.condition is None else f'condition {cell.condition + 1}'}")
+            advance(
+                f"{cell.concept} {'fixed' if cell.condition is None else f'condition {cell.condition + 1}'}"
+            )
 
         schedule = run_plan(plan, add, stop, processes if total > 2 else 1)
         stopped = stop()
@@ -71,12 +79,18 @@ def plan_from(args: argparse.Namespace) -> SchedulePlan:
         conditions = read_mission(args.mission, design)
     else:
         ratios = sorted(set(parse_range(args.range or DEFAULT_MU)))
-        conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios)
-    conditions = tuple(sorted(conditions, key=lambda one: (one.flight.advance_ratio, one.flight.mass)))
+        conditions = tuple(
+            WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios
+        )
+    conditions = tuple(
+        sorted(conditions, key=lambda one: (one.flight.advance_ratio, one.flight.mass))
+    )
     limits = common.limits_from(args, design, concepts)
     for concept in concepts:
         limits.bounds_of(concept)
-    return SchedulePlan(design, concepts, conditions, args.objective, limits, args.starts, args.seed)
+    return SchedulePlan(
+        design, concepts, conditions, args.objective, limits, args.starts, args.seed
+    )
 
 
 def record(schedule: Schedule) -> dict[str, Any]:
@@ -85,7 +99,11 @@ def record(schedule: Schedule) -> dict[str, Any]:
     quantities = _quantities(plan)
     gains = {concept.name: schedule.in_flight_gain(concept.name) for concept in plan.concepts}
     return {
-        "status": "converged" if schedule.converged else "not-converged" if schedule.complete else "stopped",
+        "status": "converged"
+        if schedule.converged
+        else "not-converged"
+        if schedule.complete
+        else "stopped",
         "concepts": [concept.name for concept in plan.concepts],
         "objective": plan.quantity,
         "conditions": [
@@ -93,11 +111,17 @@ def record(schedule: Schedule) -> dict[str, Any]:
                 **{name: condition.flight.numbers[name] for name in quantities},
                 "hours": condition.hours,
                 "baseline_power_w": _baseline(schedule, k),
-                "optima": {concept.name: _entry(schedule.at(k, concept.name), concept) for concept in plan.concepts},
+                "optima": {
+                    concept.name: _entry(schedule.at(k, concept.name), concept)
+                    for concept in plan.concepts
+                },
             }
             for k, condition in enumerate(plan.conditions)
         ],
-        "fixed": {concept.name: _entry(schedule.at(None, concept.name), concept) for concept in plan.concepts},
+        "fixed": {
+            concept.name: _entry(schedule.at(None, concept.name), concept)
+            for concept in plan.concepts
+        },
         "worth": {
             name: None
             if gain is None
@@ -107,7 +131,9 @@ def record(schedule: Schedule) -> dict[str, Any]:
                 "moving_w": gain.moving,
                 "gain_w": gain.gain,
                 "gain_percent": 100.0 * gain.share,
-                "gain_band_w": sure.change_band if (sure := schedule.gain_doubt(name)) is not None else None,
+                "gain_band_w": sure.change_band
+                if (sure := schedule.gain_doubt(name)) is not None
+                else None,
                 "sureness": sure and sure.sureness,
             }
             for name, gain in gains.items()
@@ -121,7 +147,10 @@ def _quantities(plan: SchedulePlan) -> tuple[str, ...]:
 
 
 def _baseline(schedule: Schedule, condition: int) -> float | None:
-    return next((cell.optimum.baseline_power for cell in schedule.cells if cell.condition == condition), None)
+    return next(
+        (cell.optimum.baseline_power for cell in schedule.cells if cell.condition == condition),
+        None,
+    )
 
 
 def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
@@ -184,7 +213,9 @@ def _line(cell: ScheduleOptimum, width: int) -> str:
     """An optimum of the table, and below it what holds it; what could not be found says why."""
     optimum = cell.optimum
     if optimum.best is None:
-        return wrapped(f"  {cell.concept:<{width}}  {optimum.status.value}: {optimum.message}", "    ")
+        return wrapped(
+            f"  {cell.concept:<{width}}  {optimum.status.value}: {optimum.message}", "    "
+        )
     met = f"\n    * {', '.join(optimum.best.active)}" if optimum.best.active else ""
     status = "" if optimum.status is SearchStatus.CONVERGED else f"  ({optimum.status.value})"
     power, twist = _power(optimum.best.power), common.short_spec(optimum.best.twist)

@@ -7,7 +7,13 @@ from dataclasses import replace
 from typing import Any
 
 from rotor.actuator.installation import with_actuator
-from rotor.command.common import add_command, add_design_arguments, add_output_arguments, design_from, waves_text
+from rotor.command.common import (
+    add_command,
+    add_design_arguments,
+    add_output_arguments,
+    design_from,
+    waves_text,
+)
 from rotor.design.aircraft import in_words
 from rotor.design.design import Design
 from rotor.support.terminal import wrapped
@@ -52,10 +58,18 @@ def run(args: argparse.Namespace) -> int:
     sure = _doubt(solution) if args.doubt and solution.converged else None
     loads = distribution(solution) if args.distribution and solution.converged else None
     if args.json:
-        also: dict[str, Any] = {"distribution": loads and loads.to_dict()} if args.distribution else {}
+        also: dict[str, Any] = (
+            {"distribution": loads and loads.to_dict()} if args.distribution else {}
+        )
         if args.doubt:
             also["doubt"] = sure and sure.record()
-        print(json.dumps({**solution_record(solution), **also, **_vibration(solution)}, indent=2, allow_nan=False))
+        print(
+            json.dumps(
+                {**solution_record(solution), **also, **_vibration(solution)},
+                indent=2,
+                allow_nan=False,
+            )
+        )
     else:
         print(report(solution))
         if sure is not None:
@@ -86,7 +100,8 @@ def _vibration(solution: Solution) -> dict[str, Any]:
     return {
         "hub_loads": loads and loads.record(),
         "hub_loads_note": note,
-        "blade_frequencies_per_rev": frequencies and {name: list(values) for name, values in vars(frequencies).items()},
+        "blade_frequencies_per_rev": frequencies
+        and {name: list(values) for name, values in vars(frequencies).items()},
     }
 
 
@@ -94,9 +109,13 @@ def _load(design: Design) -> str:
     """What the rotor carries: weight at an altitude, or the inputs of a test."""
     condition = design.condition
     if condition.stand is None:
-        return ", ".join((f"{condition.mass:.1f} kg, {condition.altitude:.0f} m", *in_words(design.unusual)))
+        return ", ".join(
+            (f"{condition.mass:.1f} kg, {condition.altitude:.0f} m", *in_words(design.unusual))
+        )
     height = [f"{condition.altitude:.0f} m"] if condition.altitude else []
-    return ", ".join((f"{design.models.trim}: {condition.stand}", *height, *in_words(design.unusual)))
+    return ", ".join(
+        (f"{design.models.trim}: {condition.stand}", *height, *in_words(design.unusual))
+    )
 
 
 def _decimals(value: float) -> int:
@@ -108,7 +127,9 @@ def report(solution: Solution) -> str:
     """What `solve` prints: flight, power, controls, coefficients, and caveats."""
     design = solution.design
     inflow = design.models.hover_inflow if design.hovering else design.models.inflow
-    carried = "" if design.rotor.blade.carried is None else f", with {design.rotor.blade.carried.name}"
+    carried = (
+        "" if design.rotor.blade.carried is None else f", with {design.rotor.blade.carried.name}"
+    )
     lines = [
         f"{design.rotor.name}, preset {design.preset}, twist {design.jig.spec()}{carried}, inflow {inflow}",
         f"µ {design.condition.advance_ratio:.4f} ({design.airspeed / KNOT:.1f} kt), {_load(design)}",
@@ -125,7 +146,8 @@ def report(solution: Solution) -> str:
         lines += [
             f"hub loads at {loads.per_rev}/rev: "
             + ", ".join(
-                f"{name} {value:.0f} {'N' if name[0] == 'f' else 'N m'}" for name, value in loads.amplitudes.items()
+                f"{name} {value:.0f} {'N' if name[0] == 'f' else 'N m'}"
+                for name, value in loads.amplitudes.items()
             ),
             f"index {loads.index:.1f} % of the weight, {low:.1f} … {high:.1f} % over inflow models: for comparison, "
             "not an absolute level",
@@ -136,7 +158,9 @@ def report(solution: Solution) -> str:
 
 def _powers(solution: Solution) -> list[str]:
     power, controls, stand = solution.power, solution.controls, solution.design.condition.stand
-    powers = {"shaft": power.shaft} if stand else {"total": power.total, "main rotor": power.main_rotor}
+    powers = (
+        {"shaft": power.shaft} if stand else {"total": power.total, "main rotor": power.main_rotor}
+    )
     powers |= {"induced": power.induced, "profile": power.profile}
     powers |= {"propulsive" if stand else "parasite": power.parasite}
     powers |= {"climb": power.climb} if solution.design.vertical_speed else {}
@@ -153,12 +177,18 @@ def _powers(solution: Solution) -> list[str]:
     symbol, size = power_unit(*powers.values())
     digits = 2 if size <= max(map(abs, powers.values())) < 10.0 * size else 1
     lines = [f"{name:<12}{value / size:z10.{digits}f} {symbol}" for name, value in powers.items()]
-    return [*lines, "", *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items())]
+    return [
+        *lines,
+        "",
+        *(f"{name:<12}{math.degrees(value) + 0.0:10.2f} °" for name, value in degrees.items()),
+    ]
 
 
 def _coefficients(solution: Solution) -> list[str]:
     design, merit, factor = solution.design, solution.figure_of_merit, solution.induced_power_factor
-    lines = [f"κ = P_i/(C_T λ0) {'none: there is no thrust' if factor is None else f'{factor:.3f}'}"]
+    lines = [
+        f"κ = P_i/(C_T λ0) {'none: there is no thrust' if factor is None else f'{factor:.3f}'}"
+    ]
     lines += [f"C_T/σ {solution.ct_over_sigma:z.4f} (σ {design.rotor.solidity:.4f})"]
     if design.condition.stand is not None:
         lift, drag = solution.lift_and_drag
@@ -166,7 +196,11 @@ def _coefficients(solution: Solution) -> list[str]:
         fine = _decimals(math.hypot(lift, drag))
         lines += [f"C_Q/σ {solution.cq / design.rotor.solidity:.6f}, torque {twisting}"]
         lines += [f"lift {lift:z.{fine}f} N, drag {drag:z.{fine}f} N (wind axes)"]
-    lines += [f"figure of merit {merit:.3f}"] if merit is not None else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
+    lines += (
+        [f"figure of merit {merit:.3f}"]
+        if merit is not None
+        else [f"L/D_e {solution.lift_to_drag or 0.0:.2f}"]
+    )
     return [
         *lines,
         f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "

@@ -13,7 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from rotor.command.common import STOPPED, add_command, add_output_arguments, check_output, interruptible, print_result
+from rotor.command.common import (
+    STOPPED,
+    add_command,
+    add_output_arguments,
+    check_output,
+    interruptible,
+    print_result,
+)
 from rotor.study.chunks import FinishedChunk, StudyFolder, StudyFolderError, evaluate_points
 from rotor.study.cluster import ExecutorLost, dask_client
 from rotor.study.results import Results, best_row, main_effects, read_results, robust_best
@@ -31,7 +38,9 @@ _ENOUGH_POINTS = 100
 """Points from which shares of a sample hold: of 20 points an axis that has two thirds once got half a per cent."""
 
 
-def record(results: Results, least: str | None = None, uncertain: tuple[str, ...] | None = None) -> dict[str, Any]:
+def record(
+    results: Results, least: str | None = None, uncertain: tuple[str, ...] | None = None
+) -> dict[str, Any]:
     """The JSON of `study show --json`; None where there is no result. ValueError for an unknown column or axis."""
     least, uncertain = _aims(results, least, uncertain)
     row = best_row(results, least)
@@ -47,7 +56,9 @@ def record(results: Results, least: str | None = None, uncertain: tuple[str, ...
         "sentences": dict(Counter(messages).most_common(_MOST_MESSAGES)),
         "caveats": dict(caveats.most_common()),
         "least": least,
-        "best": None if row is None else {name: _plain(column[row]) for name, column in results.columns.items()},
+        "best": None
+        if row is None
+        else {name: _plain(column[row]) for name, column in results.columns.items()},
         "uncertain": list(uncertain),
         "robust": robust and asdict(robust),
         "sensitivities": [asdict(effect) for effect in main_effects(results, least)],
@@ -62,48 +73,70 @@ def report(results: Results, shown: dict[str, Any]) -> str:
     def value(number: float) -> str:
         return _shown(number, results.unit(least))
 
-    lines = [f"{shown['title']}: {shown['done']:,} of {shown['points']:,} points, {shown['failed']:,} failed"]
+    lines = [
+        f"{shown['title']}: {shown['done']:,} of {shown['points']:,} points, {shown['failed']:,} failed"
+    ]
     best = shown["best"]
     if best is None:
         lines.append(f"no point has a value of {least}")
     else:
         where = [*results.axes, *(name for name in ("twist",) if name not in results.axes)]
-        lines += ["", f"least {least}: {value(best[least])}", f"  {_at({name: best[name] for name in where})}"]
+        lines += [
+            "",
+            f"least {least}: {value(best[least])}",
+            f"  {_at({name: best[name] for name in where})}",
+        ]
     robust = shown["robust"]
     if robust is not None:
         cases = robust["least_worst"]["cases"]
         counts = f"{_count(cases, 'case')}; {_count(robust['designs'], 'design')}"
         lines += ["", f"robust over {', '.join(shown['uncertain'])} ({counts})"]
-        for name, design in (("least worst case", robust["least_worst"]), ("least mean", robust["least_mean"])):
+        for name, design in (
+            ("least worst case", robust["least_worst"]),
+            ("least mean", robust["least_mean"]),
+        ):
             lines.append(
                 f"  {name:<17} worst {value(design['worst'])}, mean {value(design['mean'])}: {_at(design['design'])}"
             )
         if robust["dropped"]:
-            lines.append(f"  {_count(robust['dropped'], 'design')} left out: a case failed or is not finished")
+            lines.append(
+                f"  {_count(robust['dropped'], 'design')} left out: a case failed or is not finished"
+            )
     elif shown["uncertain"]:
         lines += ["", f"no design has a result in every case of {', '.join(shown['uncertain'])}"]
     if shown["sensitivities"]:
         so_far = "" if shown["done"] == shown["points"] else ", from the finished points"
-        lines += ["", f"what {least} depends on{so_far}: share of its variance; mean where that is least … most"]
+        lines += [
+            "",
+            f"what {least} depends on{so_far}: share of its variance; mean where that is least … most",
+        ]
         for row in shown["sensitivities"]:
-            ends = (
-                f"{value(row['least'])} at {_text(row['least_at'])} … {value(row['most'])} at {_text(row['most_at'])}"
-            )
-            lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {ends}")
+            least = f"{value(row['least'])} at {_text(row['least_at'])}"
+            most = f"{value(row['most'])} at {_text(row['most_at'])}"
+            lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {least} … {most}")
         if results.sampled and results.good.sum() < _ENOUGH_POINTS:
             points = _count(int(results.good.sum()), "point")
-            lines.append(f"  rough: {points} of a sample; with fewer than {_ENOUGH_POINTS}, chance decides the shares")
+            lines.append(
+                f"  rough: {points} of a sample; with fewer than {_ENOUGH_POINTS}, chance decides the shares"
+            )
     if shown["caveats"]:
         each = ", ".join(f"{name} at {count:,}" for name, count in shown["caveats"].items())
         one = "DIR:N" if best is None else f"DIR:{best['point']:.0f}"
-        lines += ["", wrapped(f"caveats of points: {each}; python -m rotor solve --row {one} says more", "  ")]
+        lines += [
+            "",
+            wrapped(
+                f"caveats of points: {each}; python -m rotor solve --row {one} says more", "  "
+            ),
+        ]
     if shown["failed"]:
         lines += ["", f"{shown['failed']:,} failed, for example:"]
         lines += [f"  {count:,} × {sentence}" for sentence, count in shown["sentences"].items()]
     return "\n".join(lines)
 
 
-def _aims(results: Results, least: str | None, uncertain: tuple[str, ...] | None) -> tuple[str, tuple[str, ...]]:
+def _aims(
+    results: Results, least: str | None, uncertain: tuple[str, ...] | None
+) -> tuple[str, tuple[str, ...]]:
     least = least or str(results.about.get("least", "power_total_w"))
     numbers = [name for name in results.columns if results.numeric(name)]
     if least not in numbers:
@@ -156,7 +189,9 @@ def add_parser(commands: Any) -> None:
     parser = add_command(commands, "study", run, words)
     words = "study file, shipped example (two_segment.toml), or the word show"
     parser.add_argument("file", metavar="FILE.toml", help=words)
-    parser.add_argument("folder", metavar="DIR", nargs="?", help="with show: the --out DIR of a study")
+    parser.add_argument(
+        "folder", metavar="DIR", nargs="?", help="with show: the --out DIR of a study"
+    )
     words = "address of a running Dask cluster, tls://… outside trusted networks (default: the cores of this machine)"
     parser.add_argument("--scheduler", metavar="tcp://HOST:PORT", help=words)
     words = "processes to run on this machine (default: one per core)"
@@ -180,7 +215,9 @@ def run(args: argparse.Namespace) -> int:
             raise ValueError(f"{name} is for show only: write `study show DIR`")
     file = read_study(args.file)
     if args.workers is not None and args.scheduler:
-        raise ValueError("--workers starts processes on this machine, --scheduler uses a cluster: omit one")
+        raise ValueError(
+            "--workers starts processes on this machine, --scheduler uses a cluster: omit one"
+        )
     check_workers(args.workers)
     if args.dry_run:
         return _dry_run(file)
@@ -217,7 +254,10 @@ def _executor(args: argparse.Namespace, study: Study) -> Generator[Executor]:
         if not args.scheduler.startswith("tls://"):
             print(f"rotor: {args.scheduler} {_PLAIN}", file=sys.stderr)
         if not client.nthreads():
-            print(f"rotor: no workers yet; start some with `dask worker {args.scheduler}`", file=sys.stderr)
+            print(
+                f"rotor: no workers yet; start some with `dask worker {args.scheduler}`",
+                file=sys.stderr,
+            )
         yield client.get_executor()
 
 
@@ -290,9 +330,15 @@ def _show(args: argparse.Namespace) -> int:
         raise ValueError("show needs a folder: write `study show DIR`")
     for flag in ("scheduler", "workers", "out", "dry_run"):
         if getattr(args, flag):
-            raise ValueError(f"--{flag.replace('_', '-')} is for running a study: omit it with `study show`")
+            raise ValueError(
+                f"--{flag.replace('_', '-')} is for running a study: omit it with `study show`"
+            )
     results = read_results(args.folder)
-    uncertain = None if args.uncertain is None else tuple(name.strip() for name in args.uncertain.split(","))
+    uncertain = (
+        None
+        if args.uncertain is None
+        else tuple(name.strip() for name in args.uncertain.split(","))
+    )
     shown = record(results, args.least, uncertain)
     check_output(args)
     if args.csv:
@@ -319,7 +365,10 @@ def estimate(study: Study) -> tuple[float, int]:
     Chunks from the first to the last, for the corners of crossed axes are where trims are hardest: near the limit of
     thrust a point may cost eight times the usual.
     """
-    last, run = study.chunks - 1, _TIMED_SEARCHES if study.optimum is not None else 3 * _TIMED_SEARCHES
+    last, run = (
+        study.chunks - 1,
+        _TIMED_SEARCHES if study.optimum is not None else 3 * _TIMED_SEARCHES,
+    )
     places = sorted({round(last * k / (_TIMED_PLACES - 1)) for k in range(_TIMED_PLACES)})
     costs: list[float] = []
     count = 0
@@ -345,7 +394,11 @@ def _seconds(study: Study, first: int, last: int) -> float:
 
 def _rate(points_per_second: float) -> str:
     """Points per second, or per minute below five per second."""
-    return f"{points_per_second:,.0f}/s" if points_per_second >= 5.0 else f"{60.0 * points_per_second:,.0f}/min"
+    return (
+        f"{points_per_second:,.0f}/s"
+        if points_per_second >= 5.0
+        else f"{60.0 * points_per_second:,.0f}/min"
+    )
 
 
 def _span(seconds: float) -> str:

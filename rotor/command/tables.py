@@ -19,7 +19,15 @@ from rotor.design.active_twist import harmonics_text
 from rotor.design.design import Design
 from rotor.design.quantities import NUMBERS, SWEPT
 from rotor.optimisation.vibration import FrontPoint, VibrationFront, vibration_front
-from rotor.study.series import PARTS, SHARED_COLUMNS, SweepTable, Waterfall, WaterfallStep, sweep, waterfall
+from rotor.study.series import (
+    PARTS,
+    SHARED_COLUMNS,
+    SweepTable,
+    Waterfall,
+    WaterfallStep,
+    sweep,
+    waterfall,
+)
 from rotor.support.arrays import Array
 from rotor.support.table import LEFT, CellValue, Column, Table, table
 from rotor.support.terminal import wrapped
@@ -47,7 +55,9 @@ def run_sweep(args: argparse.Namespace) -> int:
             design.at(**cast(Any, {name: step}))
     base = common.design_from(args, args.relative_to).twist.spec() if args.relative_to else ""
     if base and base not in (known := [design.twist.spec() for design in designs]):
-        raise ValueError(f"--relative-to {base} is not a twist of this sweep: use {', '.join(dict.fromkeys(known))}")
+        raise ValueError(
+            f"--relative-to {base} is not a twist of this sweep: use {', '.join(dict.fromkeys(known))}"
+        )
     common.check_output(args)
     tables = [sweep(design, **cast(Any, {name: steps})) for design in designs]
     solutions = SweepTable(tuple(solution for each in tables for solution in each), args.over)
@@ -64,13 +74,22 @@ def sweep_report(solutions: SweepTable, over: str) -> str:
     """The table without columns that are the same in all rows; below it each caveat, in the words of the first row
     that has it: those of another row may have other numbers."""
     level = all(solution.design.vertical_speed == 0.0 for solution in solutions)
-    left_out = {"status", "caveats", "message", *SHARED_COLUMNS, *(("climb_m_s", "power_climb_w") if level else ())}
+    left_out = {
+        "status",
+        "caveats",
+        "message",
+        *SHARED_COLUMNS,
+        *(("climb_m_s", "power_climb_w") if level else ()),
+    }
     kept = [k for k, name in enumerate(solutions.columns) if name == over or name not in left_out]
     symbol, size = power_unit(*(solution.last_power.total for solution in solutions))
     columns = [_sweep_column(solutions.columns[k], symbol) for k in kept]
     failures = ("" if one.converged else f"{one.status.value}: {one.message}" for one in solutions)
     pairs = zip(solutions.rows, failures, strict=True)
-    rows = [(*(_in_unit(row[k], solutions.columns[k], size) for k in kept), failure) for row, failure in pairs]
+    rows = [
+        (*(_in_unit(row[k], solutions.columns[k], size) for k in kept), failure)
+        for row, failure in pairs
+    ]
     sentences: dict[str, str] = {}
     for caveat in (caveat for solution in solutions for caveat in solution.caveats):
         words = re.sub(r"[\d.]+", "", caveat.sentence)
@@ -99,7 +118,9 @@ def _sweep_column(name: str, symbol: str) -> Column:
 
 def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
     """Name and values of what is swept; of the others `args` has the one value afterwards."""
-    given: dict[str, list[float]] = {name: getattr(args, name) for name in SWEPT if getattr(args, name) is not None}
+    given: dict[str, list[float]] = {
+        name: getattr(args, name) for name in SWEPT if getattr(args, name) is not None
+    }
     if args.hover:
         if slower := [f"--{SWEPT[name].flag}" for name in ("mu", "speed_kt") if name in given]:
             raise ValueError(f"--hover and {slower[0]} both give the speed: leave one of them out")
@@ -107,7 +128,10 @@ def _swept(args: argparse.Namespace) -> tuple[str, list[float]]:
     speeds = [name for name in ("mu", "speed_kt") if name in given]
     several = [name for name in given if len(given[name]) > 1] or speeds
     if len(speeds) > 1 or len(several) != 1:
-        asked = " and ".join(f"--{SWEPT[name].flag}" for name in dict.fromkeys((*speeds, *several))) or "nothing"
+        asked = (
+            " and ".join(f"--{SWEPT[name].flag}" for name in dict.fromkeys((*speeds, *several)))
+            or "nothing"
+        )
         raise ValueError(
             f"a sweep over {asked} is not possible: give one range, for example --mu 0.05:0.40:0.05, where 0 is hover"
         )
@@ -148,7 +172,13 @@ def add_front(commands: Any) -> None:
     parser.add_argument("--harmonics", default="2,3", metavar="N,…", help=words)
     reach = "largest amplitude of each harmonic (default 1)"
     parser.add_argument("--reach-deg", type=common.finite, default=1.0, metavar="DEG", help=reach)
-    parser.add_argument("--points", type=int, default=5, metavar="N", help="points on the trade-off curve (default 5)")
+    parser.add_argument(
+        "--points",
+        type=int,
+        default=5,
+        metavar="N",
+        help="points on the trade-off curve (default 5)",
+    )
     common.add_design_arguments(parser, speed=True)
     common.add_output_arguments(parser, "the table")
 
@@ -158,19 +188,32 @@ def run_front(args: argparse.Namespace) -> int:
     try:
         harmonics = [int(item) for item in args.harmonics.split(",")]
     except ValueError:
-        raise ValueError(f"harmonics {args.harmonics!r} are not understood: write for example 2,3") from None
+        raise ValueError(
+            f"harmonics {args.harmonics!r} are not understood: write for example 2,3"
+        ) from None
     design = common.design_from(args)
     common.check_output(args)
     try:
-        front = vibration_front(design, args.concept, harmonics=harmonics, reach_deg=args.reach_deg, points=args.points)
+        front = vibration_front(
+            design, args.concept, harmonics=harmonics, reach_deg=args.reach_deg, points=args.points
+        )
     except RuntimeError as error:
-        print(json.dumps({"status": "not-converged", "message": str(error)}, indent=2) if args.json else str(error))
+        print(
+            json.dumps({"status": "not-converged", "message": str(error)}, indent=2)
+            if args.json
+            else str(error)
+        )
         return 1
     start = solve(front.start.design)
-    found = table(FRONT_COLUMNS, (front_row(point, front.start, start) for point in (front.start, *front.points)))
+    found = table(
+        FRONT_COLUMNS,
+        (front_row(point, front.start, start) for point in (front.start, *front.points)),
+    )
     if args.csv:
         found.write(args.csv)
-    common.print_result(args, lambda: front_record(design, front, found.records()), lambda: _front(front, found))
+    common.print_result(
+        args, lambda: front_record(design, front, found.records()), lambda: _front(front, found)
+    )
     return 0 if len(front.points) == args.points else 1
 
 
@@ -200,7 +243,9 @@ def front_row(point: FrontPoint, start: FrontPoint, trimmed: Solution) -> tuple[
     )
 
 
-def front_record(design: Design, front: VibrationFront, rows: list[dict[str, CellValue]]) -> dict[str, Any]:
+def front_record(
+    design: Design, front: VibrationFront, rows: list[dict[str, CellValue]]
+) -> dict[str, Any]:
     return {
         "status": "converged",
         "message": front.message,
@@ -215,10 +260,17 @@ def front_record(design: Design, front: VibrationFront, rows: list[dict[str, Cel
 
 def _front(front: VibrationFront, found: Table) -> str:
     lines = [front.message, found.text()]
-    if any(one.over_inflows is not None and one.over_inflows[0] * one.over_inflows[1] < 0.0 for one in front.points):
+    if any(
+        one.over_inflows is not None and one.over_inflows[0] * one.over_inflows[1] < 0.0
+        for one in front.points
+    ):
         lines.append("Where the changes over inflow models differ in sign, no phase is best.")
     if front.preview_error is not None:
-        lines.append("largest error of the preview: power {:.2f} %, index {:.1f} %".format(*front.preview_error))
+        lines.append(
+            "largest error of the preview: power {:.2f} %, index {:.1f} %".format(
+                *front.preview_error
+            )
+        )
     lines.append(
         wrapped(
             "index: per cent of the weight, on a stand of the thrust; force weights 0.5, 0.67 and 1 (aft, side, up): "
@@ -305,7 +357,9 @@ def add_airfoil(commands: Any) -> None:
     parser = common.add_command(commands, "airfoil", run_airfoil)
     parser.add_argument("action", choices=("show",), help="show the data")
     parser.add_argument("name", metavar="NAME", help=f"section: {', '.join(TABLE_NAMES)}")
-    parser.add_argument("--mach", type=float, metavar="M", help="Mach number of one point, with --alpha")
+    parser.add_argument(
+        "--mach", type=float, metavar="M", help="Mach number of one point, with --alpha"
+    )
     parser.add_argument("--alpha", type=float, metavar="DEG", help="angle of attack of that point")
     common.add_output_arguments(parser)
 
@@ -325,7 +379,9 @@ def _show_point(name: str, mach: float, alpha: float, as_json: bool) -> None:
     """Lift, drag and moment at one Mach number and angle of attack [°] about the section's own chord line."""
     table = load_installed(name).table
     if not 0.0 <= mach <= table.mach_limit:
-        raise ValueError(f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose one inside")
+        raise ValueError(
+            f"--mach {mach:g} is outside the data of {name}, 0…{table.mach_limit:g}: choose one inside"
+        )
     if not -180.0 <= alpha <= 180.0:
         raise ValueError(f"--alpha {alpha:g} is outside −180…180 deg: choose a value inside")
     here, moment = table(np.deg2rad(alpha), mach), table.moment(np.deg2rad(alpha), mach)
@@ -342,7 +398,11 @@ def _show_section(section: Section, as_json: bool) -> None:
     data = section.table
     mach = np.array([0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9])
     negative, positive = data.stall_alpha(mach)
-    sweep, four, moment = np.deg2rad(np.arange(0.0, 20.0, 0.1)), np.deg2rad(4.0), data.moment(0.0, mach)
+    sweep, four, moment = (
+        np.deg2rad(np.arange(0.0, 20.0, 0.1)),
+        np.deg2rad(4.0),
+        data.moment(0.0, mach),
+    )
     values: dict[Column, Array] = {
         Column("Mach", ".2f", "mach"): mach,
         Column("slope/deg", ".4f", "cl_alpha_per_deg"): np.deg2rad(data.lift_slope(mach)),
@@ -356,7 +416,9 @@ def _show_section(section: Section, as_json: bool) -> None:
     }
     if moment is not None:
         values[Column("cm(0)", ".4f", "cm_at_0_deg")] = moment
-    divergence = {f"{a:g}": round(float(data.drag_divergence_mach(np.deg2rad(a))), 3) for a in (0.0, 2.0, 4.0)}
+    divergence = {
+        f"{a:g}": round(float(data.drag_divergence_mach(np.deg2rad(a))), 3) for a in (0.0, 2.0, 4.0)
+    }
     offset = float(np.rad2deg(section.incidence_offset))
     if as_json:
         answer = {
@@ -376,4 +438,7 @@ def _show_section(section: Section, as_json: bool) -> None:
         f"and chord {section.chord_ratio:g} times, those of SC1095"
     )
     print(table(values, zip(*values.values(), strict=True)).text())
-    print("drag divergence (dcd/dM = 0.1) at Mach " + ", ".join(f"{m:g} at {a} deg" for a, m in divergence.items()))
+    print(
+        "drag divergence (dcd/dM = 0.1) at Mach "
+        + ", ".join(f"{m:g} at {a} deg" for a, m in divergence.items())
+    )

@@ -30,9 +30,15 @@ def add_parser(commands: Any) -> None:
     measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
     words = f"set of points: {measured} (default: all these), {more}"
     parser.add_argument("sets", nargs="*", metavar="SET", help=words)
-    parser.add_argument("--inflow", metavar="NAME", help="inflow model (default: that of preset flight)")
+    parser.add_argument(
+        "--inflow", metavar="NAME", help="inflow model (default: that of preset flight)"
+    )
     parser.add_argument("--plot", metavar="DIR", help="also draw each set into this folder")
-    parser.add_argument("--page", metavar="DIR", help="also write the page of each set, with charts, into this folder")
+    parser.add_argument(
+        "--page",
+        metavar="DIR",
+        help="also write the page of each set, with charts, into this folder",
+    )
     add_output_arguments(parser)
 
 
@@ -83,15 +89,33 @@ def run(args: argparse.Namespace) -> int:
     for name in names if args.page else ():
         page = write_set(TRUST_SETS[name](), make_folder(args.page))
         print(f"page: {page}", file=sys.stderr)
-    return 0 if all(point.computed is not None for comparison in comparisons for point in comparison.judged) else 1
+    return (
+        0
+        if all(
+            point.computed is not None for comparison in comparisons for point in comparison.judged
+        )
+        else 1
+    )
 
 
-_DIFFERENCES = Column("correlation", ".2f"), Column("rms", ".4f"), Column("mean", ".4f"), Column("measured", ".4f")
+_DIFFERENCES = (
+    Column("correlation", ".2f"),
+    Column("rms", ".4f"),
+    Column("mean", ".4f"),
+    Column("measured", ".4f"),
+)
 
 
 def inflow_report(rows: list[InflowAgreement]) -> str:
     cells = (
-        (row.mu, row.model, "–" if row.correlation is None else row.correlation, row.rms, row.mean, row.measured_mean)
+        (
+            row.mu,
+            row.model,
+            "–" if row.correlation is None else row.correlation,
+            row.rms,
+            row.mean,
+            row.measured_mean,
+        )
         for row in rows
     )
     lines = [
@@ -107,13 +131,27 @@ def airload_report(rows: list[CurveAgreement]) -> str:
     what = Column("case"), Column("r/R", ".2f"), Column("quantity", LEFT)
     columns = (*what, correlation, rms, Column("of", ".4f"), *means)
     cells = (
-        (row.case.name, row.r, row.quantity, row.correlation, row.rms, row.measured_rms, row.mean, row.measured_mean)
+        (
+            row.case.name,
+            row.r,
+            row.quantity,
+            row.correlation,
+            row.rms,
+            row.measured_rms,
+            row.mean,
+            row.measured_mean,
+        )
         for row in rows
     )
     lines = [
-        *(wrapped(f"{name}: {REPORTS[name]}; never fitted") for name in dict.fromkeys(row.case.test for row in rows)),
+        *(
+            wrapped(f"{name}: {REPORTS[name]}; never fitted")
+            for name in dict.fromkeys(row.case.test for row in rows)
+        ),
         table(columns, cells).text(),
-        wrapped("Harmonics 1 to 10 (of the tip's motion 1 to 3), without the mean; rms of difference and measured."),
+        wrapped(
+            "Harmonics 1 to 10 (of the tip's motion 1 to 3), without the mean; rms of difference and measured."
+        ),
     ]
     return "\n".join(lines)
 
@@ -127,7 +165,11 @@ def power_report(rows: list[FlownPower]) -> str:
     for row in rows:
         computed, error, words = None, None, "does not trim"
         if row.computed is not None:
-            computed, error, words = row.computed / 1e3, 100.0 * (row.computed / row.measured - 1.0), None
+            computed, error, words = (
+                row.computed / 1e3,
+                100.0 * (row.computed / row.measured - 1.0),
+                None,
+            )
         cells.append((row.rotor, row.case, row.mu, row.measured / 1e3, computed, error, words))
     title = f"{POWERS}: main-rotor power in level flight [kW]; never fitted"
     return f"{title}\n{table(columns, cells).text()}"
@@ -146,12 +188,21 @@ def report(comparison: Comparison) -> str:
         if point.computed is not None:
             missed = "" if point.passed else ", misses the target"
             aside = "" if point in comparison.judged else " (not counted)"
-            computed, words = point.computed[quantity], f"{'yes' if point.within_scatter else 'no'}{missed}{aside}"
+            computed, words = (
+                point.computed[quantity],
+                f"{'yes' if point.within_scatter else 'no'}{missed}{aside}",
+            )
         where = (point.given[name] for name in measured.given)
         scatter = measured.scatter_of({**point.given, **point.measured})
-        cells.append((*where, point.measured[quantity], scatter, computed, point.error_percent, words))
+        cells.append(
+            (*where, point.measured[quantity], scatter, computed, point.error_percent, words)
+        )
     lines = [wrapped(f"{measured.name}: {measured.title}"), wrapped(measured.report)]
-    lines += [f"inflow {comparison.inflow}; never fitted", table(columns, cells).text(), wrapped(verdict(comparison))]
+    lines += [
+        f"inflow {comparison.inflow}; never fitted",
+        table(columns, cells).text(),
+        wrapped(verdict(comparison)),
+    ]
     if lost := [point for point in comparison.points if point.computed is None]:
         counted = sum(point.judged for point in lost)
         where = f"{counted} of them with a target" if counted else "none of them with a target"
@@ -163,8 +214,16 @@ def report(comparison: Comparison) -> str:
 def verdict(comparison: Comparison) -> str:
     """Root mean square, worst error and target in one line."""
     unit = comparison.measured.unit
-    rms = "a point does not trim" if comparison.rms_percent is None else f"rms {comparison.rms_percent:.1f} {unit}"
-    worst = "" if comparison.worst_percent is None else f", worst {comparison.worst_percent:+.1f} {unit}"
+    rms = (
+        "a point does not trim"
+        if comparison.rms_percent is None
+        else f"rms {comparison.rms_percent:.1f} {unit}"
+    )
+    worst = (
+        ""
+        if comparison.worst_percent is None
+        else f", worst {comparison.worst_percent:+.1f} {unit}"
+    )
     target = "indicative, without a target"
     if comparison.passed is not None:
         target = f"target {comparison.measured.target}: {'met' if comparison.passed else 'missed'}"
@@ -183,5 +242,7 @@ def draw(comparison: Comparison, folder: Path) -> Path:
         folder.mkdir(parents=True, exist_ok=True)
         figure.savefig(path, dpi=120)
     except OSError as error:
-        raise ValueError(f"cannot write {str(path)!r} ({error.strerror}): give a writable folder") from None
+        raise ValueError(
+            f"cannot write {str(path)!r} ({error.strerror}): give a writable folder"
+        ) from None
     return path

@@ -19,7 +19,12 @@ from rotor.trim.solve import analyse, solve
 
 
 def add_parser(commands: Any) -> None:
-    add_command(commands, "warm", run, "Compile and keep all kernels; else each command compiles what it needs.")
+    add_command(
+        commands,
+        "warm",
+        run,
+        "Compile and keep all kernels; else each command compiles what it needs.",
+    )
 
 
 def run(_: argparse.Namespace) -> int:
@@ -41,7 +46,11 @@ def compile_lags() -> None:
 
 
 lags_beside = partial(
-    compiled_in_parallel, compile_lags, "rotor.aero.dynamic_stall", "rotor.aero.stalling_section", "rotor.engine.memory"
+    compiled_in_parallel,
+    compile_lags,
+    "rotor.aero.dynamic_stall",
+    "rotor.aero.stalling_section",
+    "rotor.engine.memory",
 )
 """Within, a second process compiles what `compile_lags` does: nearly half of all."""
 

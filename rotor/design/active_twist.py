@@ -33,13 +33,22 @@ class Harmonic:
 
     def __post_init__(self) -> None:
         if not 1 <= self.per_rev <= HIGHEST:
-            raise ValueError(f"harmonic {self.per_rev:g}/rev is outside 1…{HIGHEST}: choose a value inside")
-        if not (math.isfinite(self.amplitude) and 0.0 <= self.amplitude <= LARGEST_TWIST * (1.0 + 1e-12)):
+            raise ValueError(
+                f"harmonic {self.per_rev:g}/rev is outside 1…{HIGHEST}: choose a value inside"
+            )
+        if not (
+            math.isfinite(self.amplitude) and 0.0 <= self.amplitude <= LARGEST_TWIST * (1.0 + 1e-12)
+        ):
             degrees = math.degrees(self.amplitude)
-            raise ValueError(f"amplitude {degrees:g}° at {self.per_rev}/rev is outside 0…20°: choose a value inside")
+            raise ValueError(
+                f"amplitude {degrees:g}° at {self.per_rev}/rev is outside 0…20°: choose a value inside"
+            )
         if not math.isfinite(self.phase):
-            raise ValueError(f"phase {self.phase:g} at {self.per_rev}/rev is not finite: give an angle")
-        object.__setattr__(self, "phase", self.phase % math.tau % math.tau)  # A single remainder gives 2π for −1e-20.
+            raise ValueError(
+                f"phase {self.phase:g} at {self.per_rev}/rev is not finite: give an angle"
+            )
+        # A single remainder gives 2π for −1e-20.
+        object.__setattr__(self, "phase", self.phase % math.tau % math.tau)
 
 
 @dataclass(frozen=True)
@@ -55,7 +64,9 @@ class ActiveTwist:
     def __post_init__(self) -> None:
         check_harmonics(self.harmonics, "active twist")
         if len(self.stations) != len(self.shape) or len(self.stations) < 2:
-            raise ValueError(f"{len(self.stations)} stations but {len(self.shape)} shape values: give 2 or more pairs")
+            raise ValueError(
+                f"{len(self.stations)} stations but {len(self.shape)} shape values: give 2 or more pairs"
+            )
         if any(low >= high for low, high in pairwise(self.stations)):
             raise ValueError(f"active-twist stations {list(self.stations)} must ascend: sort them")
 
@@ -64,7 +75,9 @@ class ActiveTwist:
         wave = np.zeros_like(psi)
         for harmonic in self.harmonics:
             size = harmonic.amplitude * harmonic.per_rev**derivative
-            wave = wave + size * np.cos(harmonic.per_rev * psi - harmonic.phase + 0.5 * math.pi * derivative)
+            wave = wave + size * np.cos(
+                harmonic.per_rev * psi - harmonic.phase + 0.5 * math.pi * derivative
+            )
         return np.outer(np.interp(r, self.stations, self.shape), wave)
 
 
@@ -96,7 +109,9 @@ def check_root_pitch(harmonics: tuple[Harmonic, ...]) -> None:
             )
         if harmonic.amplitude > LARGEST_PITCH * (1.0 + 1e-12):
             degrees = math.degrees(harmonic.amplitude)
-            raise ValueError(f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose one inside")
+            raise ValueError(
+                f"root pitch {degrees:g}° at {harmonic.per_rev}/rev is outside 0…10°: choose one inside"
+            )
 
 
 PerRev = str | Sequence["Harmonic | Sequence[float] | Mapping[str, Any]"]
@@ -117,9 +132,13 @@ def read_harmonics(value: PerRev, name: str) -> tuple[Harmonic, ...]:
         items = list(value)
     else:
         raise ValueError(f"{name} is {value!r:.80}: {_FORM}")
-    harmonics = tuple(item if isinstance(item, Harmonic) else _harmonic(item, name) for item in items)
+    harmonics = tuple(
+        item if isinstance(item, Harmonic) else _harmonic(item, name) for item in items
+    )
     check_harmonics(harmonics, name)
-    return tuple(sorted((wave for wave in harmonics if wave.amplitude), key=lambda wave: wave.per_rev))
+    return tuple(
+        sorted((wave for wave in harmonics if wave.amplitude), key=lambda wave: wave.per_rev)
+    )
 
 
 def _harmonic(item: Any, name: str) -> Harmonic:
@@ -133,19 +152,32 @@ def _harmonic(item: Any, name: str) -> Harmonic:
     except (KeyError, TypeError, ValueError, OverflowError):
         raise ValueError(f"{name} {_shown(item)} is not understood: {_FORM}") from None
     if per_rev % 1.0 or not all(map(math.isfinite, (per_rev, amplitude, phase))):
-        raise ValueError(f"{name} {_shown(item)} needs a whole number and two finite angles: {_FORM}")
+        raise ValueError(
+            f"{name} {_shown(item)} needs a whole number and two finite angles: {_FORM}"
+        )
     # In degrees, so that −DEG at PHASE is DEG at PHASE + 180 to the last digit.
-    return Harmonic(int(per_rev), math.radians(abs(amplitude)), math.radians((phase + 180.0 * (amplitude < 0.0)) % 360))
+    return Harmonic(
+        int(per_rev),
+        math.radians(abs(amplitude)),
+        math.radians((phase + 180.0 * (amplitude < 0.0)) % 360),
+    )
 
 
 def _shown(item: Any) -> str:
     """An item as it was written."""
-    return f"{':'.join(map(str, cast(list[Any], item)))!r:.80}" if isinstance(item, list | tuple) else f"{item!r:.80}"
+    return (
+        f"{':'.join(map(str, cast(list[Any], item)))!r:.80}"
+        if isinstance(item, list | tuple)
+        else f"{item!r:.80}"
+    )
 
 
 def harmonics_text(harmonics: tuple[Harmonic, ...]) -> str:
     """`N:DEG:PHASE[,…]`, which `read_harmonics` reads back, to a unit in the last place."""
-    return ",".join(f"{wave.per_rev}:{degrees_text(wave.amplitude)}:{degrees_text(wave.phase)}" for wave in harmonics)
+    return ",".join(
+        f"{wave.per_rev}:{degrees_text(wave.amplitude)}:{degrees_text(wave.phase)}"
+        for wave in harmonics
+    )
 
 
 def harmonics_record(harmonics: tuple[Harmonic, ...]) -> list[dict[str, Any]]:

@@ -14,7 +14,15 @@ from functools import cached_property
 from typing import Any, Literal
 
 from rotor.design.blade import Rotor
-from rotor.design.quantities import CONDITION, LOAD_KEYS, NUMBERS, QUANTITIES, STAND, UNUSUAL, Flapping
+from rotor.design.quantities import (
+    CONDITION,
+    LOAD_KEYS,
+    NUMBERS,
+    QUANTITIES,
+    STAND,
+    UNUSUAL,
+    Flapping,
+)
 from rotor.design.twist import TwistLaw
 from rotor.support.units import GRAVITY, KNOT
 
@@ -66,7 +74,9 @@ class Stand:
         given = [name for name in LOAD_KEYS if getattr(self, STAND[name].field) is not None]
         if len(given) != 1:
             named = " and ".join(given) or "none of them"
-            raise ValueError(f"a test stand is given {named}: give one of thrust_n, ct_over_sigma and collective_deg")
+            raise ValueError(
+                f"a test stand is given {named}: give one of thrust_n, ct_over_sigma and collective_deg"
+            )
         for name, row in _BY_FIELD.items():
             value = getattr(self, name)
             if row.kind == "choice":
@@ -75,13 +85,20 @@ class Stand:
                 row.check(row.shown(value))
         if self.flapping != "free" and (self.cyclic_1c or self.cyclic_1s):
             trims = "flapping" if self.flapping == "trimmed" else "hub moments"
-            raise ValueError(f"cyclic is given, but needed to trim the {trims}: leave it out, or set flapping to free")
+            raise ValueError(
+                f"cyclic is given, but needed to trim the {trims}: leave it out, or set flapping to free"
+            )
         if self.flapping != "hub-moments" and (self.hub_roll or self.hub_pitch):
-            raise ValueError("hub moments are given, but the rotor is not trimmed to them: set flapping to hub-moments")
+            raise ValueError(
+                "hub moments are given, but the rotor is not trimmed to them: set flapping to hub-moments"
+            )
 
     def __str__(self) -> str:
         given = self.record().items()
-        return ", ".join(f"{key} {value}" if isinstance(value, str) else f"{key} {value:.5g}" for key, value in given)
+        return ", ".join(
+            f"{key} {value}" if isinstance(value, str) else f"{key} {value:.5g}"
+            for key, value in given
+        )
 
     @property
     def tilt(self) -> float:
@@ -91,7 +108,11 @@ class Stand:
     def record(self) -> dict[str, Any]:
         """The given inputs as a design file stores them, with angles in degrees; `read_stand` reads them back."""
         values = ((_BY_FIELD[field.name], getattr(self, field.name)) for field in fields(self))
-        return {row.name: row.shown(value) for row, value in values if value is not None and value != row.default}
+        return {
+            row.name: row.shown(value)
+            for row, value in values
+            if value is not None and value != row.default
+        }
 
 
 def read_stand(record: Mapping[str, Any], trim: str) -> Stand:
@@ -151,7 +172,11 @@ class FlightCondition:
                 row.check(getattr(self, row.field), tested)
         if self.advance_ratio < SLOWEST_FLIGHT:
             object.__setattr__(self, "advance_ratio", 0.0)
-        if self.stand is not None and self.stand.tip_mach is not None and self.rotor_speed_percent != 100.0:
+        if (
+            self.stand is not None
+            and self.stand.tip_mach is not None
+            and self.rotor_speed_percent != 100.0
+        ):
             raise ValueError(
                 f"rotor speed {self.rotor_speed_percent:g} % and tip_mach {self.stand.tip_mach:g} both say how fast "
                 "the rotor turns: give one of them"
@@ -168,7 +193,11 @@ class FlightCondition:
     def unusual(self) -> dict[str, float]:
         """The quantities that differ from ordinary level flight, by name and in the unit of the name."""
         rows = {name: row for name, row in UNUSUAL.items() if name in CONDITION}
-        return {name: value for name, row in rows.items() if (value := getattr(self, row.field)) != row.default}
+        return {
+            name: value
+            for name, row in rows.items()
+            if (value := getattr(self, row.field)) != row.default
+        }
 
     @property
     def weight(self) -> float:
@@ -192,7 +221,9 @@ class FlightCondition:
     @property
     def sound_speed(self) -> float:
         """Speed of sound √(γRT) [m/s]."""
-        return math.sqrt(RATIO_OF_SPECIFIC_HEATS * GAS_CONSTANT * SEA_LEVEL_TEMPERATURE * self._temperature_ratio)
+        return math.sqrt(
+            RATIO_OF_SPECIFIC_HEATS * GAS_CONSTANT * SEA_LEVEL_TEMPERATURE * self._temperature_ratio
+        )
 
     @property
     def viscosity(self) -> float:
@@ -250,7 +281,9 @@ def changed_condition(
     hover = given.pop("hover", False)
     if hover not in (True, False):
         raise TypeError(f"hover is {hover!r}: write hover=True or leave it out")
-    speeds = {name: given[name] for name in ("mu", "speed_kt") if name in given} | ({"hover": True} if hover else {})
+    speeds = {name: given[name] for name in ("mu", "speed_kt") if name in given} | (
+        {"hover": True} if hover else {}
+    )
     if len(speeds) > 1:
         chosen = " and ".join(f"{name}={value!r}" for name, value in speeds.items())
         raise ValueError(f"{chosen} each set the speed: give only one of mu, speed_kt and hover")
@@ -259,13 +292,17 @@ def changed_condition(
         changed["advance_ratio"] = 0.0
     elif "speed_kt" in given:
         share = changed.get("rotor_speed_percent", condition.rotor_speed_percent) / 100.0
-        changed["advance_ratio"] = QUANTITIES["speed_kt"].read(given["speed_kt"]) * KNOT / (tip_speed * share)
+        changed["advance_ratio"] = (
+            QUANTITIES["speed_kt"].read(given["speed_kt"]) * KNOT / (tip_speed * share)
+        )
     return replace(condition, **(fields | changed))
 
 
 def _check(name: str, value: float, low: float, high: float, unit: str) -> None:
     if not (math.isfinite(value) and low <= value <= high):
-        raise ValueError(f"{name} {value:g}{unit} is outside {low:g}…{high:g}{unit}: choose a value inside")
+        raise ValueError(
+            f"{name} {value:g}{unit} is outside {low:g}…{high:g}{unit}: choose a value inside"
+        )
 
 
 FIXED_SHARE = 0.05
@@ -296,7 +333,13 @@ class TailRotor:
 
 
 Hub = Literal["articulated", "teetering", "teetering-with-coning-hinges", "gimballed", "hingeless"]
-HUBS: tuple[Hub, ...] = ("articulated", "teetering", "teetering-with-coning-hinges", "gimballed", "hingeless")
+HUBS: tuple[Hub, ...] = (
+    "articulated",
+    "teetering",
+    "teetering-with-coning-hinges",
+    "gimballed",
+    "hingeless",
+)
 """`gimballed`: three or more blades on one joint at the shaft; the hub tilts as a whole and fixes the coning.
 `hingeless`: the elastic root of a blade is an equivalent hinge with a spring."""
 
@@ -344,7 +387,10 @@ class ControlRange:
 
     def left(self, collective: float, cyclic_1c: float, cyclic_1s: float) -> float:
         """Smallest distance to a stop for a pitch [rad], as a part of the range: 0.5 at mid-travel, negative beyond."""
-        return min(min(place, 1.0 - place) for place in self.places(collective, cyclic_1c, cyclic_1s).values())
+        return min(
+            min(place, 1.0 - place)
+            for place in self.places(collective, cyclic_1c, cyclic_1s).values()
+        )
 
 
 @dataclass(frozen=True, repr=False)
@@ -387,7 +433,10 @@ class Aircraft:
         """The record of a design file: the name of a shipped rotor, or the lines of every file of a user's rotor."""
         if self.files is None:
             return self.key
-        return {"main": self.files.main, "files": {name: text.splitlines() for name, text in self.files.texts}}
+        return {
+            "main": self.files.main,
+            "files": {name: text.splitlines() for name, text in self.files.texts},
+        }
 
     def rotor_for(self, preset: str) -> Rotor:
         """The rotor of a preset: for `thesis` the document's rotor if there is one, else the rotor as built."""

@@ -45,7 +45,9 @@ class BladeStructure:
     """Spring rate of the root in lag [N m/rad]; None: a hinge is free, a hingeless root is held."""
 
     def __post_init__(self) -> None:
-        bending = tuple(stiffness for stiffness in (self.flap_stiffness, self.lag_stiffness) if stiffness)
+        bending = tuple(
+            stiffness for stiffness in (self.flap_stiffness, self.lag_stiffness) if stiffness
+        )
         columns = (self.torsional_stiffness, self.mass_per_length, self.torsional_inertia, *bending)
         if len(self.stations) < 2 or any(len(column) != len(self.stations) for column in columns):
             raise ValueError(
@@ -53,14 +55,21 @@ class BladeStructure:
                 "inertia each"
             )
         if any(low >= high for low, high in pairwise(self.stations)):
-            raise ValueError(f"blade structure stations {list(self.stations)} must ascend: sort them")
+            raise ValueError(
+                f"blade structure stations {list(self.stations)} must ascend: sort them"
+            )
         smallest = min(min(column) for column in columns)
-        if min(smallest, self.control_stiffness, self.pitch_horn) <= 0.0 or self.tension_gyration < 0.0:
+        if (
+            min(smallest, self.control_stiffness, self.pitch_horn) <= 0.0
+            or self.tension_gyration < 0.0
+        ):
             raise ValueError(
                 "stiffness, mass, inertia and pitch horn of a blade structure must be positive: check the rotor file"
             )
         if len(bending) == 1:
-            raise ValueError("a blade structure has only one of flap and lag stiffness: give both, or neither")
+            raise ValueError(
+                "a blade structure has only one of flap and lag stiffness: give both, or neither"
+            )
 
     @property
     def bends(self) -> bool:
@@ -93,7 +102,9 @@ class Span:
 
     def __post_init__(self) -> None:
         if not 0.0 <= self.start < self.end <= 1.0:
-            raise ValueError(f"span of {self.section} runs {self.start:g}…{self.end:g}: give 0 ≤ start < end ≤ 1")
+            raise ValueError(
+                f"span of {self.section} runs {self.start:g}…{self.end:g}: give 0 ≤ start < end ≤ 1"
+            )
 
 
 @dataclass(frozen=True)
@@ -164,15 +175,21 @@ class Blade:
                 f"{len(self.chord_stations)} chord stations but {len(self.chords)} chords: give one chord per station"
             )
         if not self.spans:
-            raise ValueError("a blade needs at least one section span: add one with start, end and section")
+            raise ValueError(
+                "a blade needs at least one section span: add one with start, end and section"
+            )
         if not 0.0 < self.root_cutout < 0.9:
-            raise ValueError(f"root cut-out {self.root_cutout:g} is outside 0…0.9: give it as a fraction of the radius")
+            raise ValueError(
+                f"root cut-out {self.root_cutout:g} is outside 0…0.9: give it as a fraction of the radius"
+            )
         if not (abs(self.tip_sweep) <= 1.05 and 0.3 <= self.tip_sweep_start <= 1.0):
             raise ValueError(
                 f"tip sweep {math.degrees(self.tip_sweep):g}° from {self.tip_sweep_start:g} R: give ±60° from 0.3…1 R"
             )
         if min(self.flap_inertia, self.mass, *self.chords) <= 0.0:
-            raise ValueError("blade chord, mass and flap inertia must be positive: check the rotor file")
+            raise ValueError(
+                "blade chord, mass and flap inertia must be positive: check the rotor file"
+            )
 
     @property
     def rigid(self) -> bool:
@@ -266,7 +283,11 @@ class Rotor:
         """This rotor at a percentage of its nominal speed; 100 returns the rotor itself."""
         speed = self.angular_speed if self.own_speed is None else self.own_speed
         if percent == 100.0:
-            return self if self.own_speed is None else replace(self, angular_speed=speed, own_speed=None)
+            return (
+                self
+                if self.own_speed is None
+                else replace(self, angular_speed=speed, own_speed=None)
+            )
         return replace(self, angular_speed=speed * (percent / 100.0), own_speed=speed)
 
     @property
@@ -307,7 +328,9 @@ def with_airfoils(rotor: Rotor, sections: Sequence[str], breaks: Sequence[float]
             f"between each two, beyond the root cut-out {rotor.blade.root_cutout:g}, for example "
             "sc1094r8,sc1095@0.5"
         )
-    spans = tuple(Span(low, high, name) for (low, high), name in zip(pairwise(ends), sections, strict=True))
+    spans = tuple(
+        Span(low, high, name) for (low, high), name in zip(pairwise(ends), sections, strict=True)
+    )
     return replace(rotor, blade=replace(rotor.blade, spans=spans))
 
 
@@ -317,4 +340,6 @@ def airfoils_spec(rotor: Rotor) -> str | None:
     if any(inner.end != outer.start for inner, outer in pairwise(spans)):
         return None
     names = ",".join(span.section for span in spans)
-    return names + (f"@{','.join(f'{span.end:.10g}' for span in spans[:-1])}" if len(spans) > 1 else "")
+    return names + (
+        f"@{','.join(f'{span.end:.10g}' for span in spans[:-1])}" if len(spans) > 1 else ""
+    )

@@ -24,7 +24,14 @@ from rotor.design.active_twist import (
     linear_active_twist,
     root_pitch,
 )
-from rotor.design.aircraft import Aircraft, FlightCondition, Fuselage, TailRotor, changed_condition, in_words
+from rotor.design.aircraft import (
+    Aircraft,
+    FlightCondition,
+    Fuselage,
+    TailRotor,
+    changed_condition,
+    in_words,
+)
 from rotor.design.blade import Rotor, airfoils_spec
 from rotor.design.gust import Gust
 from rotor.design.quantity import check_names
@@ -40,7 +47,11 @@ def fingerprint(value: object) -> str:
 def _text(value: Any) -> str:
     """The value with every field of every dataclass: their own `repr` may be shorter."""
     if is_dataclass(value) and not isinstance(value, type):
-        inside = ", ".join(f"{field.name}={_text(getattr(value, field.name))}" for field in fields(value) if field.repr)
+        inside = ", ".join(
+            f"{field.name}={_text(getattr(value, field.name))}"
+            for field in fields(value)
+            if field.repr
+        )
         return f"{type(value).__qualname__}({inside})"
     if type(value) is tuple:
         items = [_text(item) for item in cast(tuple[Any, ...], value)]
@@ -142,11 +153,17 @@ class Models:
         for name in ("hover_inflow", "low_speed", "loss_on"):
             quantities.QUANTITIES[name].check_choice(getattr(self, name))
         if not 4 <= self.elements <= 1000:
-            raise ValueError(f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power")
+            raise ValueError(
+                f"{self.elements} blade elements are outside 4…1000: 40 is enough for plots and power"
+            )
         if self.panels < 4 or self.line_azimuths < 8:
-            raise ValueError(f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more")
+            raise ValueError(
+                f"{self.panels} panels at {self.line_azimuths} azimuths are too few: give 4 and 8 or more"
+            )
         if self.azimuths is not None and not 8 <= self.azimuths <= 2000:
-            raise ValueError(f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power")
+            raise ValueError(
+                f"{self.azimuths} azimuths are outside 8…2000: 120 is enough for plots and power"
+            )
 
 
 @dataclass(frozen=True, repr=False)
@@ -186,7 +203,9 @@ class Design:
                 "level flight; use the preset flight, or leave the rate of climb out"
             )
         if self.gust is not None and not self.models.disk_axial_flow:
-            raise ValueError(f"{self.gust!r:.80}: the document's equations are those of still air; use preset flight")
+            raise ValueError(
+                f"{self.gust!r:.80}: the document's equations are those of still air; use preset flight"
+            )
         if (trim in quantities.STAND_TRIMS) != (stand is not None):
             raise ValueError(
                 f"trim {trim!r} {'needs' if stand is None else 'does not use'} the inputs of a test stand: "
@@ -195,7 +214,9 @@ class Design:
         if stand is None:
             return
         if not self.models.disk_axial_flow:
-            raise ValueError(f"trim {trim!r} needs the axial flow of the tilted disk: use the preset flight")
+            raise ValueError(
+                f"trim {trim!r} needs the axial flow of the tilted disk: use the preset flight"
+            )
         if trim == "free-rotor" and self.hovering:
             raise ValueError("a free rotor needs wind to turn it: give an advance ratio above 0")
         if trim == "controls" and stand.collective is None:
@@ -203,14 +224,26 @@ class Design:
                 "trim 'controls' needs a collective: give one, or use trim 'wind-tunnel', which also takes a thrust"
             )
         if trim == "controls" and stand.flapping != "free":
-            raise ValueError("trim 'controls' needs free flapping: set flapping to free, or use trim 'wind-tunnel'")
+            raise ValueError(
+                "trim 'controls' needs free flapping: set flapping to free, or use trim 'wind-tunnel'"
+            )
         if self.hovering and (stand.hub_roll or stand.hub_pitch):
-            raise ValueError("in hover the rotor is balanced annulus by annulus, without hub moments: leave them out")
+            raise ValueError(
+                "in hover the rotor is balanced annulus by annulus, without hub moments: leave them out"
+            )
         if stand.flapping == "hub-moments" and self.rotor.flap_frequency_squared <= 1.0 + 1e-9:
-            hinged = "rigid blades, which have no cyclic" if self.rotor.blade.rigid else "blades hinged at the shaft"
-            raise ValueError(f"hub moments cannot be trimmed on {hinged}, which carry none: give flapping trimmed")
+            hinged = (
+                "rigid blades, which have no cyclic"
+                if self.rotor.blade.rigid
+                else "blades hinged at the shaft"
+            )
+            raise ValueError(
+                f"hub moments cannot be trimmed on {hinged}, which carry none: give flapping trimmed"
+            )
         if self.hovering and (stand.cyclic_1c or stand.cyclic_1s):
-            raise ValueError("in hover the rotor is balanced annulus by annulus, without cyclic: leave cyclic out")
+            raise ValueError(
+                "in hover the rotor is balanced annulus by annulus, without cyclic: leave cyclic out"
+            )
 
     def __repr__(self) -> str:
         condition = self.condition
@@ -221,14 +254,20 @@ class Design:
             height = f", {condition.altitude:.0f} m" if condition.altitude else ""
             load = f"{self.models.trim}: {condition.stand}{height}"
         load = ", ".join((load, *in_words(self.unusual)))
-        carried = "" if self.rotor.blade.carried is None else f"with {self.rotor.blade.carried.name}, "
+        carried = (
+            "" if self.rotor.blade.carried is None else f"with {self.rotor.blade.carried.name}, "
+        )
         return (
             f"Design({self.aircraft.name}, twist {self.jig.spec()}, {carried}{speed}, {load}, "
             f"preset {self.preset}, inflow {inflow})"
         )
 
     def at(
-        self, *, mu: float | None = None, hover: bool = False, **flight: Unpack[quantities.Flight[float | None]]
+        self,
+        *,
+        mu: float | None = None,
+        hover: bool = False,
+        **flight: Unpack[quantities.Flight[float | None]],
     ) -> "Design":
         """This design at another flight condition; what is left out stays as it is.
 
@@ -238,7 +277,9 @@ class Design:
         check_names(Design.at, flight, quantities.SWEPT, _other_change)
         tip_speed = self.rotor.at_speed(100.0).tip_speed
         asked = {"mu": mu, "hover": hover, **flight}
-        return with_numbers(replace(self, condition=changed_condition(self.condition, tip_speed, asked)), asked)
+        return with_numbers(
+            replace(self, condition=changed_condition(self.condition, tip_speed, asked)), asked
+        )
 
     def with_twist(self, twist: TwistLaw | str) -> "Design":
         """This design with another twist: a law, or a SPEC as `parse_twist` reads it.
@@ -248,7 +289,9 @@ class Design:
         if isinstance(twist, TwistLaw):
             return replace(self, twist=twist)
         builtin = self.rotor.builtin_twist
-        return replace(self, twist=parse_twist(twist, builtin=builtin, ideal_tip_pitch=self._ideal_tip_pitch))
+        return replace(
+            self, twist=parse_twist(twist, builtin=builtin, ideal_tip_pitch=self._ideal_tip_pitch)
+        )
 
     def _ideal_tip_pitch(self) -> float:
         """θ_tip [rad] of the ideal twist for this weight in hover."""
@@ -259,7 +302,9 @@ class Design:
     def to_dict(self) -> dict[str, Any]:
         """The record of a design file: texts, numbers and lists only. ValueError for a gust, which files have not."""
         if self.gust is not None:
-            raise ValueError(f"design files have no {self.gust!r:.80}: write replace(design, gust=None)")
+            raise ValueError(
+                f"design files have no {self.gust!r:.80}: write replace(design, gust=None)"
+            )
         carried = self.rotor.blade.carried
         changed = self.bare.rotor.at_speed(100.0) != self.aircraft.rotor_for(self.preset)
         airfoils = airfoils_spec(self.rotor) if changed else None
@@ -282,7 +327,11 @@ class Design:
                 for name in ("hover_inflow", "low_speed", "loss_on", *switches, *quantities.OPTIONS)
                 if name in switches or getattr(self.models, name) != getattr(preset, name)
             },
-            **{name: asked for name, asked in grid_arguments(self.models, preset).items() if asked is not None},
+            **{
+                name: asked
+                for name, asked in grid_arguments(self.models, preset).items()
+                if asked is not None
+            },
             **({"airfoils": airfoils} if airfoils else {}),
             **self._per_rev_record(),
             **({} if stand is None else {"trim": self.models.trim, "stand": stand.record()}),
@@ -296,7 +345,9 @@ class Design:
             record["twist_per_rev"] = harmonics_text(self.linear_active_twist)
         elif active is not None:
             record["active_twist"] = active_twist_record(active)
-        return record | ({"pitch_per_rev": harmonics_text(self.pitch_per_rev)} if self.pitch_per_rev else {})
+        return record | (
+            {"pitch_per_rev": harmonics_text(self.pitch_per_rev)} if self.pitch_per_rev else {}
+        )
 
     def save(self, path: str | Path) -> None:
         """Write a design file, JSON, which `load_design` reads; ValueError for the suffix of another format."""
@@ -307,7 +358,9 @@ class Design:
     def jig(self) -> TwistLaw:
         """The built-in twist law, without the twist that an actuator on the blades adds."""
         law, carried = self.twist, self.rotor.blade.carried
-        return law.base if isinstance(law, SumTwist) and carried and law.name == carried.name else law
+        return (
+            law.base if isinstance(law, SumTwist) and carried and law.name == carried.name else law
+        )
 
     @property
     def bare(self) -> "Design":
@@ -317,8 +370,12 @@ class Design:
         usual = self.aircraft.rotor_for(self.preset).blade
         own = ("mass", "flap_static_moment", "flap_inertia", "structure", "carried")
         blade = replace(self.rotor.blade, **{name: getattr(usual, name) for name in own})
-        condition = replace(self.condition, mass=round(self.condition.mass - carried.aircraft_kg, 9))
-        return replace(self, twist=self.jig, condition=condition, rotor=replace(self.rotor, blade=blade))
+        condition = replace(
+            self.condition, mass=round(self.condition.mass - carried.aircraft_kg, 9)
+        )
+        return replace(
+            self, twist=self.jig, condition=condition, rotor=replace(self.rotor, blade=blade)
+        )
 
     @property
     def numbers(self) -> dict[str, float]:
@@ -328,13 +385,21 @@ class Design:
     @property
     def unusual(self) -> dict[str, float]:
         """The entries of `numbers` that differ from ordinary level flight of the aircraft as built."""
-        return {name: row.of(self) for name, row in quantities.UNUSUAL.items() if row.of(self) != row.usual(self)}
+        return {
+            name: row.of(self)
+            for name, row in quantities.UNUSUAL.items()
+            if row.of(self) != row.usual(self)
+        }
 
     @property
     def linear_active_twist(self) -> tuple[Harmonic, ...]:
         """Harmonics of the active twist if it is linear from the root cut-out to the tip; empty otherwise."""
         active, root = self.active_twist, self.rotor.blade.root_cutout
-        return active.harmonics if active and active == linear_active_twist(active.harmonics, root) else ()
+        return (
+            active.harmonics
+            if active and active == linear_active_twist(active.harmonics, root)
+            else ()
+        )
 
     @property
     def active_waves(self) -> tuple[Harmonic, ...]:
@@ -372,7 +437,12 @@ class Design:
 
     def in_disk_axes(self, tilt: float) -> tuple[float, float]:
         """Velocity of flight along and through a disk tilted by α [rad]: µ cos α − µ_c sin α, µ sin α + µ_c cos α."""
-        mu, climb, cos, sin = self.condition.advance_ratio, self.vertical_ratio, math.cos(tilt), math.sin(tilt)
+        mu, climb, cos, sin = (
+            self.condition.advance_ratio,
+            self.vertical_ratio,
+            math.cos(tilt),
+            math.sin(tilt),
+        )
         return mu * cos - climb * sin, mu * sin + climb * cos
 
     @property
@@ -392,7 +462,9 @@ class Design:
         speed, here = self.flight_speed, self.condition
         if speed == 0.0 or here.stand is not None:
             return 0.0, 0.0
-        drag = (self.drag - (here.load - here.weight) * self.vertical_speed / speed) / self.thrust_unit
+        drag = (
+            self.drag - (here.load - here.weight) * self.vertical_speed / speed
+        ) / self.thrust_unit
         return drag * (self.airspeed / speed), drag * (self.vertical_speed / speed)
 
     @property
@@ -470,7 +542,9 @@ def with_numbers(design: Design, asked: Mapping[str, Any]) -> Design:
     for name, row in quantities.AIRFRAME.items():
         if asked.get(name) is not None:
             if design.condition.stand is not None and row.in_flight:
-                raise ValueError(f"{name} {asked[name]} has no effect on a test stand: leave it out, or trim a flight")
+                raise ValueError(
+                    f"{name} {asked[name]} has no effect on a test stand: leave it out, or trim a flight"
+                )
             design = row.put(design, row.read(asked[name]))
     return design
 
@@ -501,7 +575,11 @@ def _other_change(name: str) -> str:
     """The code that changes a quantity which `at` does not take; empty for what is none."""
     if name == "twist":
         return "design.with_twist(…)"
-    return f"rotor.make_design(case=design, {name}=…)" if name in quantities.ARGUMENTS and name != "case" else ""
+    return (
+        f"rotor.make_design(case=design, {name}=…)"
+        if name in quantities.ARGUMENTS and name != "case"
+        else ""
+    )
 
 
 def with_models(design: Design, **changes: Any) -> Design:
@@ -511,7 +589,12 @@ def with_models(design: Design, **changes: Any) -> Design:
 
 def with_grid(models: Models, elements: int | None = None, azimuths: int | None = None) -> Models:
     """The models on so many blade elements and azimuths, whatever the inflow model; None leaves the present number."""
-    asked = {"elements": elements, "panels": elements, "azimuths": azimuths, "line_azimuths": azimuths}
+    asked = {
+        "elements": elements,
+        "panels": elements,
+        "azimuths": azimuths,
+        "line_azimuths": azimuths,
+    }
     return replace(models, **{name: value for name, value in asked.items() if value is not None})
 
 
@@ -519,7 +602,11 @@ def grid_arguments(models: Models, plain: Models) -> dict[str, int | None]:
     """The arguments of `with_grid` that make these models of a preset's; None for its own numbers."""
     asked_for = dict[str, int | None]()
     for asked, line in (("elements", "panels"), ("azimuths", "line_azimuths")):
-        values = {getattr(models, name) for name in (asked, line) if getattr(models, name) != getattr(plain, name)}
+        values = {
+            getattr(models, name)
+            for name in (asked, line)
+            if getattr(models, name) != getattr(plain, name)
+        }
         asked_for[asked] = min(values - {None}, default=None)
     return asked_for
 
@@ -540,5 +627,7 @@ def require_design(design: Design) -> Design:
     """The design; TypeError with one sentence for anything else, which a notebook may pass."""
     if not isinstance(design, Design):  # pyright: ignore[reportUnnecessaryIsInstance]
         what = shorten(repr(design), 80)
-        raise TypeError(f"design is {what}: give what rotor.make_design or rotor.load_design returns")
+        raise TypeError(
+            f"design is {what}: give what rotor.make_design or rotor.load_design returns"
+        )
     return design

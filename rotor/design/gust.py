@@ -25,5 +25,8 @@ class Gust:
     @property
     def axisymmetric(self) -> bool:
         """Whether the gust is the same at all azimuths, which hover requires."""
-        r, psi = np.linspace(0.0, 1.0, 16)[:, None], np.linspace(0.0, 2.0 * np.pi, 90, endpoint=False)
+        r, psi = (
+            np.linspace(0.0, 1.0, 16)[:, None],
+            np.linspace(0.0, 2.0 * np.pi, 90, endpoint=False),
+        )
         return not np.any(self.over_disk(r, psi, 1))

@@ -50,7 +50,9 @@ TRIMS: tuple[FlightTrim | StandTrim, ...] = (*get_args(FlightTrim), *STAND_TRIMS
 PRESETS = ("flight", "thesis")
 
 
-def _switch(name: str, on: str, off: str, *, source: str = "section 5", title: str = "") -> Quantity:
+def _switch(
+    name: str, on: str, off: str, *, source: str = "section 5", title: str = ""
+) -> Quantity:
     """An effect that every design has unless it is switched off."""
     return Quantity(
         name, "switch", place=f"models.{name}", default=True, key=name, section="models",

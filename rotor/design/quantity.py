@@ -21,7 +21,9 @@ def number(name: str, value: object, example: str) -> float:
     try:
         return float(value)
     except OverflowError:
-        raise ValueError(f"{name} has hundreds of digits: write for example {name}={example}") from None
+        raise ValueError(
+            f"{name} has hundreds of digits: write for example {name}={example}"
+        ) from None
 
 
 @dataclass(frozen=True)
@@ -113,11 +115,19 @@ class Quantity:
 
     def of_input(self, value: float) -> float:
         """The page's input in the unit of the name, by its decimals: 2.01 t are 2010 kg, not 2009.9999999999998."""
-        return value if self.input_size == 1.0 else float(Decimal(repr(float(value))) * Decimal(self.input_size))
+        return (
+            value
+            if self.input_size == 1.0
+            else float(Decimal(repr(float(value))) * Decimal(self.input_size))
+        )
 
     def as_input(self, value: float) -> float:
         """The page's input for a value in the unit of the name, which `of_input` gives back."""
-        return value if self.input_size == 1.0 else float(Decimal(repr(float(value))) / Decimal(self.input_size))
+        return (
+            value
+            if self.input_size == 1.0
+            else float(Decimal(repr(float(value))) / Decimal(self.input_size))
+        )
 
     @property
     def flag(self) -> str:
@@ -136,7 +146,9 @@ class Quantity:
 
     def help_with(self, choices: Iterable[str]) -> str:
         """The help text, followed by the allowed names if the quantity is a text."""
-        return f"{self.help}: {', '.join(choices)}" if self.kind == "text" and choices else self.help
+        return (
+            f"{self.help}: {', '.join(choices)}" if self.kind == "text" and choices else self.help
+        )
 
     @property
     def heading(self) -> str:
@@ -186,10 +198,14 @@ class Quantity:
         high = self.high if self.high_on_stand is None or not tested else self.high_on_stand
         slack = 1e-9 if self.unit == "°" else 0.0  # Of an angle that was radians.
         if not (math.isfinite(value) and self.low - slack <= value <= high + slack):
-            words, unit = (self.what, self.unit and f" {self.unit}") if self.what else (self.name, "")
+            words, unit = (
+                (self.what, self.unit and f" {self.unit}") if self.what else (self.name, "")
+            )
             tonnes = self.unit == "kg" and self.low <= 1e3 * value <= high
             remedy = f"{value:g} t is {1e3 * value:g} kg" if tonnes else "choose a value inside"
-            raise ValueError(f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: {remedy}")
+            raise ValueError(
+                f"{words} {value:g}{unit} is outside {self.low:g}…{high:g}{unit}: {remedy}"
+            )
 
     def check_choice(self, value: Any) -> None:
         """Raise ValueError with one sentence if the value is not one of `choices`."""
@@ -206,7 +222,10 @@ class Quantity:
 
 
 def check_names(
-    function: Callable[..., Any], given: Iterable[str], known: Iterable[str], elsewhere: Callable[[str], str]
+    function: Callable[..., Any],
+    given: Iterable[str],
+    known: Iterable[str],
+    elsewhere: Callable[[str], str],
 ) -> None:
     """TypeError with one sentence for a name among the `**` arguments of a function that is none of those known.
 
@@ -216,11 +235,17 @@ def check_names(
     for name in given:
         if name not in names:
             code = elsewhere(name)
-            hint = f": write {code}" if code else did_you_mean(name, names) or f": it takes {', '.join(names)}"
+            hint = (
+                f": write {code}"
+                if code
+                else did_you_mean(name, names) or f": it takes {', '.join(names)}"
+            )
             raise TypeError(f"{function.__name__}() has no argument {name!r}{hint}")
 
 
 def replaced(thing: Any, names: list[str], value: Any) -> Any:
     """A value made of dataclasses with another value in the field that `names` lead to."""
     first, *rest = names
-    return replace(thing, **{first: replaced(getattr(thing, first), rest, value) if rest else value})
+    return replace(
+        thing, **{first: replaced(getattr(thing, first), rest, value) if rest else value}
+    )

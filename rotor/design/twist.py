@@ -142,7 +142,9 @@ class PiecewiseLinearTwist(SpecTwist):
             )
         ends = (0.0, *self.breaks, 1.0)
         if any(low >= high for low, high in pairwise(ends)):
-            raise ValueError(f"segment breaks {list(self.breaks)} must ascend between 0 and 1: reorder or move them")
+            raise ValueError(
+                f"segment breaks {list(self.breaks)} must ascend between 0 and 1: reorder or move them"
+            )
 
     def __call__(self, r: ArrayLike) -> Array:
         r = np.asarray(r, dtype=float)
@@ -176,7 +178,9 @@ class PiecewiseLinearTwist(SpecTwist):
         ends = (0.0, *self.breaks, 1.0)
         out = np.empty((n + len(self.breaks), len(r)))
         for k in range(n):
-            out[k] = np.clip(r, ends[k], ends[k + 1]) - min(max(REFERENCE_RADIUS, ends[k]), ends[k + 1])
+            out[k] = np.clip(r, ends[k], ends[k + 1]) - min(
+                max(REFERENCE_RADIUS, ends[k]), ends[k + 1]
+            )
         for k, place in enumerate(self.breaks):
             out[n + k] = (rates[k] - rates[k + 1]) * ((r > place) - float(place < REFERENCE_RADIUS))
         return out
@@ -189,7 +193,12 @@ class SplineTwist(SpecTwist):
     It represents every linear and quadratic law exactly.
     """
 
-    kind, form, example, noun = "spline", "ANGLES@STATIONS", "9,6,0,-5@0.13,0.4,0.75,1", "smooth curve"
+    kind, form, example, noun = (
+        "spline",
+        "ANGLES@STATIONS",
+        "9,6,0,-5@0.13,0.4,0.75,1",
+        "smooth curve",
+    )
     stations: tuple[float, ...]
     """r/R, ascending, four or more."""
     angles: tuple[float, ...]
@@ -202,14 +211,21 @@ class SplineTwist(SpecTwist):
                 f"for example spline:{self.example}"
             )
         if any(low >= high for low, high in pairwise(self.stations)):
-            raise ValueError(f"spline stations {list(self.stations)} must ascend: reorder or move them")
+            raise ValueError(
+                f"spline stations {list(self.stations)} must ascend: reorder or move them"
+            )
         if not (self.stations[0] >= 0.0 and self.stations[-1] <= 1.0):
-            raise ValueError(f"spline stations {list(self.stations)} must lie within 0…1: give them as r/R")
+            raise ValueError(
+                f"spline stations {list(self.stations)} must lie within 0…1: give them as r/R"
+            )
 
     def __call__(self, r: ArrayLike) -> Array:
         radii = np.asarray(r, dtype=float)
         angles = np.array(self.angles)
-        return spline_basis(self.stations, radii) @ angles - spline_basis(self.stations, REFERENCE_RADIUS) @ angles
+        return (
+            spline_basis(self.stations, radii) @ angles
+            - spline_basis(self.stations, REFERENCE_RADIUS) @ angles
+        )
 
     @classmethod
     def read(cls, angles: tuple[float, ...], places: tuple[float, ...], spec: str) -> Self:
@@ -277,7 +293,9 @@ class TableTwist(SpecTwist):
                 f"{len(self.angles)} angles given: complete the rows"
             )
         if any(low >= high for low, high in pairwise(self.stations)):
-            raise ValueError(f"twist table radii {list(self.stations)} must ascend: sort the rows, one row per radius")
+            raise ValueError(
+                f"twist table radii {list(self.stations)} must ascend: sort the rows, one row per radius"
+            )
 
     def __call__(self, r: ArrayLike) -> Array:
         zero = np.interp(REFERENCE_RADIUS, self.stations, self.angles)
@@ -320,11 +338,25 @@ def _spline(knots: tuple[float, ...]) -> "scipy.interpolate.CubicSpline":
 
 
 LAWS = {
-    law.kind: law for law in (LinearTwist, QuadraticTwist, PiecewiseLinearTwist, SplineTwist, TableTwist, IdealTwist)
+    law.kind: law
+    for law in (
+        LinearTwist,
+        QuadraticTwist,
+        PiecewiseLinearTwist,
+        SplineTwist,
+        TableTwist,
+        IdealTwist,
+    )
 }
 """Laws that a SPEC writes out, by its first word."""
 _NAMES = (*LAWS, "builtin", "table", *SHIPPED_ROTORS)
-SPEC_FORMS = (*(f"{law.kind}:{law.form}" for law in LAWS.values()), "ideal", "builtin", SHIPPED_ROTORS[0], "table:FILE")
+SPEC_FORMS = (
+    *(f"{law.kind}:{law.form}" for law in LAWS.values()),
+    "ideal",
+    "builtin",
+    SHIPPED_ROTORS[0],
+    "table:FILE",
+)
 """Every form of a SPEC."""
 _PLUS = re.compile(rf"\+(?=(?:{'|'.join(_NAMES)})\b)")
 """Between the laws of a sum, not the plus sign of a number or of a file's name."""
@@ -334,7 +366,10 @@ _MOST_LAWS, _MOST_ROWS = 20, 1000
 
 
 def parse_twist(
-    spec: str, *, builtin: TwistLaw | None = None, ideal_tip_pitch: Callable[[], float] | None = None
+    spec: str,
+    *,
+    builtin: TwistLaw | None = None,
+    ideal_tip_pitch: Callable[[], float] | None = None,
 ) -> TwistLaw:
     """The twist law of a SPEC. Angles in the SPEC are degrees, stations are r/R; the law returns radians.
 
@@ -346,34 +381,52 @@ def parse_twist(
     Raises TypeError or ValueError with one sentence that names the value and the remedy.
     """
     if not isinstance(spec, str):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass numbers
-        remedy = f'write "linear:{spec}"' if isinstance(spec, int | float) else 'write a text such as "linear:-12"'
-        raise TypeError(f"twist {spec!r} is not a twist: {remedy} (degrees per radius), or pass a twist law")
+        remedy = (
+            f'write "linear:{spec}"'
+            if isinstance(spec, int | float)
+            else 'write a text such as "linear:-12"'
+        )
+        raise TypeError(
+            f"twist {spec!r} is not a twist: {remedy} (degrees per radius), or pass a twist law"
+        )
     first, *others = _PLUS.split(spec.strip())
     if len(others) >= _MOST_LAWS:
         raise ValueError(f"twist adds {len(others) + 1} laws: give at most {_MOST_LAWS}")
     if spec.count(",") > 2 * _MOST_ROWS:
-        raise ValueError(f"twist has {spec.count(',') + 1} numbers: give at most {_MOST_ROWS} stations")
+        raise ValueError(
+            f"twist has {spec.count(',') + 1} numbers: give at most {_MOST_ROWS} stations"
+        )
     if others:
         law = parse_twist(first, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch)
         for other in others:
-            law = SumTwist(law, parse_twist(other, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch))
+            law = SumTwist(
+                law, parse_twist(other, builtin=builtin, ideal_tip_pitch=ideal_tip_pitch)
+            )
         return law
     return _single_twist(spec, builtin, ideal_tip_pitch)
 
 
-def _single_twist(spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable[[], float] | None) -> TwistLaw:
+def _single_twist(
+    spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable[[], float] | None
+) -> TwistLaw:
     kind, _, rest = spec.strip().partition(":")
     if not rest and builtin is not None and kind in ("builtin", builtin.spec()):
         return builtin
     if not rest and kind in SHIPPED_ROTORS:
         return shipped_twist(kind)
     if rest and kind in ("builtin", *SHIPPED_ROTORS):
-        raise ValueError(f"twist {spec!r} has numbers, which {kind} does not take: write {kind} or {kind}+linear:-2")
+        raise ValueError(
+            f"twist {spec!r} has numbers, which {kind} does not take: write {kind} or {kind}+linear:-2"
+        )
     if kind == "builtin":
-        raise ValueError(f"twist {spec!r} needs a rotor: pass it to make_design, or name {', '.join(SHIPPED_ROTORS)}")
+        raise ValueError(
+            f"twist {spec!r} needs a rotor: pass it to make_design, or name {', '.join(SHIPPED_ROTORS)}"
+        )
     if kind == "ideal" and not rest:
         if ideal_tip_pitch is None:
-            raise ValueError(f"twist {spec!r} needs a rotor and a weight: pass it to make_design, or write ideal:6.4")
+            raise ValueError(
+                f"twist {spec!r} needs a rotor and a weight: pass it to make_design, or write ideal:6.4"
+            )
         return IdealTwist(ideal_tip_pitch())
     if kind in LAWS:
         before, _, after = rest.partition("@")
@@ -384,7 +437,9 @@ def _single_twist(spec: str, builtin: TwistLaw | None, ideal_tip_pitch: Callable
     if kind == "table" and rest:
         return read_twist_table(Path(rest))
     if kind == "table":
-        raise ValueError(f"twist {spec!r} names no file: write table:FILE, two columns of r/R and degrees")
+        raise ValueError(
+            f"twist {spec!r} names no file: write table:FILE, two columns of r/R and degrees"
+        )
     number = _NUMBER.fullmatch(spec.strip())
     bare = f": write linear:{number[1].replace('−', '-')} for a linear twist, or" if number else ""
     raise ValueError(
@@ -399,7 +454,11 @@ def shipped_twist(name: str) -> TwistLaw:
     given: dict[str, Any] = toml_asset(f"{name}.toml")["main_rotor"]
     if "linear_twist_deg" in given:
         return LinearTwist(math.radians(given["linear_twist_deg"]))
-    return TableTwist(tuple(given["twist_r"]), tuple(math.radians(angle) for angle in given["twist_deg"]), name=name)
+    return TableTwist(
+        tuple(given["twist_r"]),
+        tuple(math.radians(angle) for angle in given["twist_deg"]),
+        name=name,
+    )
 
 
 def inline_spec(law: TwistLaw) -> str:
@@ -436,7 +495,9 @@ def read_twist_table(path: Path) -> TableTwist:
             )
         rows.append((r, math.radians(angle)))
     if len(rows) > _MOST_ROWS:
-        raise ValueError(f"twist table {str(path)!r} has {len(rows)} rows: give at most {_MOST_ROWS}")
+        raise ValueError(
+            f"twist table {str(path)!r} has {len(rows)} rows: give at most {_MOST_ROWS}"
+        )
     return TableTwist(tuple(r for r, _ in rows), tuple(a for _, a in rows), name=f"table:{path}")
 
 

@@ -41,5 +41,6 @@ def uncertain_inputs(design: Design) -> tuple[Uncertain, ...]:
     if band is not None and area:
         given.setdefault("drag_area_percent", 50.0 * (band[1] - band[0]) / area)
     return tuple(
-        replace(row, size=given[row.name], source="rotor file") if row.name in given else row for row in UNCERTAIN
+        replace(row, size=given[row.name], source="rotor file") if row.name in given else row
+        for row in UNCERTAIN
     )

@@ -59,14 +59,20 @@ class BendingBeam:
 
 
 def bending_beam(
-    structure: BladeStructure, angular_speed: float, root: float, pitch: Pitch, springs: tuple[float, float]
+    structure: BladeStructure,
+    angular_speed: float,
+    root: float,
+    pitch: Pitch,
+    springs: tuple[float, float],
 ) -> BendingBeam:
     """The blade from its hinge, or from where it is held, at `root` [m]; springs: see `BendingBeam`.
 
     ValueError for a structure without stiffness in flap and lag.
     """
     if not structure.bends:
-        raise ValueError("the blade structure has no bending stiffness: give flap_stiffness_nm2 and lag_stiffness_nm2")
+        raise ValueError(
+            "the blade structure has no bending stiffness: give flap_stiffness_nm2 and lag_stiffness_nm2"
+        )
     nodes = np.linspace(root, structure.radius, ELEMENTS + 1)
     half = 0.5 * np.diff(nodes)
     r = (nodes[:-1, None] + half[:, None] * (1.0 + _PLACES)).ravel()
@@ -78,13 +84,27 @@ def bending_beam(
 
 def _polynomials(nodes: Array, r: Array) -> tuple[Integers, Array]:
     """Number of the element of each station, and its four polynomials with two derivatives, (stations, 3, 4)."""
-    element = np.clip(np.searchsorted(nodes, r, side="right") - 1, 0, len(nodes) - 2).astype(np.int64)
+    element = np.clip(np.searchsorted(nodes, r, side="right") - 1, 0, len(nodes) - 2).astype(
+        np.int64
+    )
     o = np.diff(nodes)[element]
     s = (r - nodes[element]) / o
-    values = [1 - 3 * s**2 + 2 * s**3, o * (s - 2 * s**2 + s**3), 3 * s**2 - 2 * s**3, o * (s**3 - s**2)]
-    slopes = [(6 * s**2 - 6 * s) / o, 1 - 4 * s + 3 * s**2, (6 * s - 6 * s**2) / o, 3 * s**2 - 2 * s]
+    values = [
+        1 - 3 * s**2 + 2 * s**3,
+        o * (s - 2 * s**2 + s**3),
+        3 * s**2 - 2 * s**3,
+        o * (s**3 - s**2),
+    ]
+    slopes = [
+        (6 * s**2 - 6 * s) / o,
+        1 - 4 * s + 3 * s**2,
+        (6 * s - 6 * s**2) / o,
+        3 * s**2 - 2 * s,
+    ]
     curvatures = [(12 * s - 6) / o**2, (6 * s - 4) / o, (6 - 12 * s) / o**2, (6 * s - 2) / o]
-    return element, np.stack([np.stack(polynomials, axis=-1) for polynomials in (values, slopes, curvatures)], axis=1)
+    return element, np.stack(
+        [np.stack(polynomials, axis=-1) for polynomials in (values, slopes, curvatures)], axis=1
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -102,8 +122,18 @@ class BendingModes:
         radii = np.asarray(r, dtype=float)
         element, basis = _polynomials(self.beam.nodes, radii)
         ends = np.concatenate([np.take(self.nodal, element + k, axis=1) for k in range(2)], axis=2)
-        flap, lag = ends[:, :, [0, 1, 4, 5]], ends[:, :, [2, 3, 6, 7]]  # Of both ends, (modes, stations, 4) each.
-        out = np.stack([np.einsum("kn,mkn->mk", basis[:, d], ends_of) for ends_of in (flap, lag) for d in range(3)])
+        # Of both ends, (modes, stations, 4) each.
+        flap, lag = (
+            ends[:, :, [0, 1, 4, 5]],
+            ends[:, :, [2, 3, 6, 7]],
+        )
+        out = np.stack(
+            [
+                np.einsum("kn,mkn->mk", basis[:, d], ends_of)
+                for ends_of in (flap, lag)
+                for d in range(3)
+            ]
+        )
         return out * (radii >= self.beam.nodes[0])
 
     @property
@@ -117,10 +147,17 @@ def bending_modes(beam: BendingBeam, count: int) -> BendingModes:
     """The modes of lowest frequency, each with one unit of modal mass."""
     mass, stiffness = _matrices(beam)
     size = len(mass)
-    fixed = [0, 2, *(slope for slope, spring in zip((1, 3), beam.springs, strict=True) if math.isinf(spring))]
+    fixed = [
+        0,
+        2,
+        *(slope for slope, spring in zip((1, 3), beam.springs, strict=True) if math.isinf(spring)),
+    ]
     free = np.setdiff1d(np.arange(size), fixed)
     squares, vectors = eigh(
-        stiffness[np.ix_(free, free)], mass[np.ix_(free, free)], subset_by_index=[0, count - 1], driver="gvx"
+        stiffness[np.ix_(free, free)],
+        mass[np.ix_(free, free)],
+        subset_by_index=[0, count - 1],
+        driver="gvx",
     )
     nodal = np.zeros((count, size))
     nodal[:, free] = vectors.T
@@ -131,13 +168,25 @@ def _matrices(beam: BendingBeam) -> tuple[Array, Array]:
     """M and K, (4 nodes, 4 nodes) both; unknowns w, w', v, v' at each node."""
     element, basis = _polynomials(beam.nodes, beam.r)
     value, slope, curvature = (np.einsum("ka,kb->kab", basis[:, d], basis[:, d]) for d in range(3))
-    cos, sin, flap, lag = np.cos(beam.pitch), np.sin(beam.pitch), beam.flap_stiffness, beam.lag_stiffness
+    cos, sin, flap, lag = (
+        np.cos(beam.pitch),
+        np.sin(beam.pitch),
+        beam.flap_stiffness,
+        beam.lag_stiffness,
+    )
     up = flap * cos**2 + lag * sin**2
     forward, both = lag * cos**2 + flap * sin**2, (lag - flap) * sin * cos
     size = 4 * len(beam.nodes)
     mass, stiffness = np.zeros((size, size)), np.zeros((size, size))
 
-    def add(matrix: Array, by_value: Array, by_slope: Array, by_curvature: Array, rows: int, columns: int) -> None:
+    def add(
+        matrix: Array,
+        by_value: Array,
+        by_slope: Array,
+        by_curvature: Array,
+        rows: int,
+        columns: int,
+    ) -> None:
         parts = (by_value, value), (by_slope, slope), (by_curvature, curvature)
         blocks = sum((beam.weight * factor)[:, None, None] * product for factor, product in parts)
         first = 4 * element[:, None] + np.array([0, 1, 4, 5])
@@ -177,7 +226,9 @@ def blade_bending_modes(
     beam = bending_beam(structure, angular_speed, root, at, springs)
     modes = bending_modes(beam, 4 * max(count))
     flaps = modes.flap_share > 0.5
-    chosen = np.sort(np.concatenate([np.flatnonzero(flaps)[: count[0]], np.flatnonzero(~flaps)[: count[1]]]))
+    chosen = np.sort(
+        np.concatenate([np.flatnonzero(flaps)[: count[0]], np.flatnonzero(~flaps)[: count[1]]])
+    )
     return BendingModes(modes.beam, modes.frequency[chosen], modes.nodal[chosen])
 
 

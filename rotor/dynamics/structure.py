@@ -69,7 +69,9 @@ def uh60a_structure(radius: float = 8.1788) -> BendingStructure:
 def uh60a_torsion(radius: float) -> BladeStructure:
     """The part of `uh60a_structure` that a rotor file may state, for a radius R [m]."""
     known = uh60a_structure(radius)
-    return BladeStructure(**{field.name: getattr(known, field.name) for field in fields(BladeStructure)})
+    return BladeStructure(
+        **{field.name: getattr(known, field.name) for field in fields(BladeStructure)}
+    )
 
 
 def heavier(rotor: Rotor, mass: float, span: tuple[float, float]) -> Rotor:

@@ -32,8 +32,13 @@ class Material:
     """[kg/m³]"""
 
     def __post_init__(self) -> None:
-        if min(self.e1, self.e2, self.g12, self.density) <= 0.0 or self.nu12**2 >= self.e1 / self.e2:
-            raise ValueError(f"material {self.name!r} is not elastic: give positive moduli and nu12² < E1/E2")
+        if (
+            min(self.e1, self.e2, self.g12, self.density) <= 0.0
+            or self.nu12**2 >= self.e1 / self.e2
+        ):
+            raise ValueError(
+                f"material {self.name!r} is not elastic: give positive moduli and nu12² < E1/E2"
+            )
 
 
 @dataclass(frozen=True)
@@ -54,13 +59,17 @@ def reduced_stiffness(material: Material) -> Array:
     nu21 = material.nu12 * material.e2 / material.e1
     k = 1.0 / (1.0 - material.nu12 * nu21)
     off = material.nu12 * material.e2 * k
-    return np.array([[material.e1 * k, off, 0.0], [off, material.e2 * k, 0.0], [0.0, 0.0, material.g12]])
+    return np.array(
+        [[material.e1 * k, off, 0.0], [off, material.e2 * k, 0.0], [0.0, 0.0, material.g12]]
+    )
 
 
 def strain_rotation(angle: float) -> Array:
     """Strains (ε_x, ε_s, γ_xs) to axes of fibres at an angle [rad], (3, 3). Its transpose turns stresses back."""
     c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]])
+    return np.array(
+        [[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]]
+    )
 
 
 def rotated_stiffness(material: Material, angle: float) -> Array:
@@ -181,7 +190,11 @@ def respond(
     voltage: float = 0.0,
 ) -> SectionResponse:
     """The section under T [N m], F [N], (∫N_x y, ∫N_x z) [N m], and voltage as a fraction of the plies' full range."""
-    s11, s12, s22 = section.stiffness[:, 0, 0], section.stiffness[:, 0, 1], section.stiffness[:, 1, 1]
+    s11, s12, s22 = (
+        section.stiffness[:, 0, 0],
+        section.stiffness[:, 0, 1],
+        section.stiffness[:, 1, 1],
+    )
     axial = (s11 - s12**2 / s22) * section.length
     coupling = s12 / s22 * section.length
     flexibility = section.length / s22

@@ -88,7 +88,9 @@ def added_pull(addition: AddedStructure, r: ArrayLike, angular_speed: float) -> 
     return 0.5 * addition.mass_per_length * angular_speed**2 * (high**2 - inner**2)
 
 
-def stiffer_blade(structure: BladeStructure, scale: float, addition: AddedStructure) -> BladeStructure:
+def stiffer_blade(
+    structure: BladeStructure, scale: float, addition: AddedStructure
+) -> BladeStructure:
     """The blade with GJ × `scale` and an addition, as a structure with stations of its own."""
     low, high = addition.span
     edge = 1e-6 * structure.radius
@@ -164,7 +166,9 @@ def torsion_modes(beam: TorsionBeam, count: int) -> TorsionModes:
         squares, vectors = eigh(*matrices, subset_by_index=[0, count - 1])
     shape = np.pad(vectors.T, ((0, 0), (1, 0))) if held else vectors.T
     tip = shape[:, -1]
-    return TorsionModes(beam.r, shape / tip[:, None], np.sqrt(np.maximum(squares, 0.0)), 1.0 / tip**2, beam.pull)
+    return TorsionModes(
+        beam.r, shape / tip[:, None], np.sqrt(np.maximum(squares, 0.0)), 1.0 / tip**2, beam.pull
+    )
 
 
 @bytes_cache

@@ -31,7 +31,8 @@ from rotor.support.compiled import compiled
 
 _compile = compiled(error_model="numpy")
 
-_sums = compiled(error_model="numpy", fastmath={"contract", "reassoc", "nsz"})  # Sums in any order make vector code.
+# Sums in any order make vector code.
+_sums = compiled(error_model="numpy", fastmath={"contract", "reassoc", "nsz"})
 
 Live = Mapping[tuple[int, Shape], Array]
 """Shapes that follow the states, by channel and name."""
@@ -89,7 +90,9 @@ class Shapes:
         none = np.zeros(len(widths))
 
         def stack(all_names: Sequence[Mapping[Shape, int]]) -> Array:
-            return np.array([values.get(name, none) for names in all_names for name in names]).reshape(-1, len(widths))
+            return np.array(
+                [values.get(name, none) for names in all_names for name in names]
+            ).reshape(-1, len(widths))
 
         self.phi = stack(structure.shapes)
         """(shapes of all channels, elements)"""
@@ -180,14 +183,17 @@ class Point:
         structure, z = self.system.structure, self.z
         _, i, j, factor = structure.column_arrays
         order, pattern = structure.by_atom
-        slopes = copy(pattern)  # Making a sparse matrix checks its indices, which takes longer than the product.
+        # Making a sparse matrix checks its indices, which takes longer than the product.
+        slopes = copy(pattern)
         slopes.data = np.concatenate([factor * z[j], factor * z[i]])[order]
         return slopes
 
     @cached_property
     def residual_slopes(self) -> tuple[Array, Array]:
         """∂R by the measures, and by states and derived atoms at the same measures, (equations, …)."""
-        return self.system.structure.residual.slopes(self.z, self.q, self.system.structure.first_state)
+        return self.system.structure.residual.slopes(
+            self.z, self.q, self.system.structure.first_state
+        )
 
     @property
     def forgetful(self) -> "Point":
@@ -201,7 +207,9 @@ class Point:
         return size if np.isfinite(size) else np.inf
 
 
-def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow: bool = False) -> Point:
+def evaluate(
+    system: System, grid: Grid, x: Array, *, slopes: bool = False, flow: bool = False
+) -> Point:
     """R(x); with the partial derivatives of the section, and the flow at the sections, where asked for."""
     structure, shapes = system.structure, system.shapes
     states, y = x[: structure.given], x[structure.given :]
@@ -213,7 +221,9 @@ def evaluate(system: System, grid: Grid, x: Array, *, slopes: bool = False, flow
         for (channel, name), values in live.items():
             phi[structure.first_row[channel] + structure.shapes[channel][name]] = values
     channels = np.repeat(grid.steady[:, :, None], grid.waves.azimuths, axis=2)
-    _add_along_blade(phi, structure.first_row, _coefficients(structure, z) @ grid.waves.at, channels)
+    _add_along_blade(
+        phi, structure.first_row, _coefficients(structure, z) @ grid.waves.at, channels
+    )
     for channel, added in grid.varying.items():
         channels[channel] += added
     if system.nodes is not None:
@@ -239,7 +249,9 @@ def begin(system: System, grid: Grid, x: Array) -> Point:
     expected = np.full((*grid.steady.shape[1:], grid.waves.azimuths), nodes.expected)
     varying = {**grid.varying, nodes.channel: grid.varying.get(nodes.channel, 0.0) + expected}
     point = replace(evaluate(system, replace(grid, varying=varying), x, slopes=True), grid=grid)
-    less = response(point.forgetful, {nodes.channel: -expected}, np.zeros(len(system.structure.equations)))[0]
+    less = response(
+        point.forgetful, {nodes.channel: -expected}, np.zeros(len(system.structure.equations))
+    )[0]
     return replace(point, residual=point.residual + less)
 
 
@@ -323,7 +335,9 @@ def part(point: Point, channel: int, names: Sequence[Shape]) -> Array:
 
 
 @_compile
-def _between(slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places: Any, factors: Any, out: Any) -> None:
+def _between(
+    slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places: Any, factors: Any, out: Any
+) -> None:
     """Means of Ψ D Φ w_p w_q from the Fourier coefficients of Σ Ψ D Φ, (coefficients, measures), see `Blocks`."""
     n = phi.shape[1]
     for b in range(len(blocks)):
@@ -331,7 +345,8 @@ def _between(slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places
         pairs = np.empty(((end - first) * (last - begin), n))
         for i in range(first, end):
             for k in range(begin, last):
-                for j in range(n):  # Rows as arrays would have numba compile words for shapes that differ: 3 s.
+                # Rows as arrays would have numba compile words for shapes that differ: 3 s.
+                for j in range(n):
                     pairs[(i - first) * (last - begin) + k - begin, j] = psi[i, j] * phi[k, j]
         around = products[:waves].T
         if len(pairs) > n:  # The order of the two products that takes less.
@@ -346,7 +361,11 @@ def _between(slopes: Any, phi: Any, psi: Any, products: Any, blocks: Any, places
 
 def jacobian(point: Point, further: Terms = NO_TERMS) -> tuple[Array, Array]:
     """∂R by the states solved for, (equations, equations), and that of further measures; `point` has slopes."""
-    structure, nodes, size = point.system.structure, point.system.nodes, len(point.system.structure.equations)
+    structure, nodes, size = (
+        point.system.structure,
+        point.system.nodes,
+        len(point.system.structure.equations),
+    )
     terms = structure.residual.stacked(further)
     on_q, on_z = terms.slopes(point.z, point.q, structure.first_state)
     on_z[terms.summing] += _sparse_times(on_q[terms.summing], _measure_slopes(point))
@@ -388,7 +407,9 @@ def response(point: Point, fields: Mapping[int, Array], given: Array) -> tuple[A
         forces += point.memory.times(fields)
     q = np.concatenate([[0.0], _means(point.system, point.grid, forces)])
     residual = given + structure.residual.slopes(point.z, point.q, structure.first_state)[0] @ q
-    return residual if nodes is None else np.concatenate([residual, -forces[nodes.force].ravel()]), q
+    return residual if nodes is None else np.concatenate(
+        [residual, -forces[nodes.force].ravel()]
+    ), q
 
 
 def _force_slope(point: Point, force: int, channel: int) -> Array:
@@ -432,7 +453,14 @@ def _measure_slopes(point: Point) -> Array:
     structure, psi, waves = point.system.structure, point.system.shapes.psi, point.grid.waves
     between, blocks = np.zeros((len(structure.coefficient_places), len(point.q))), structure.blocks
     _between(
-        point.slopes, point.phi, psi, waves.mean_of_products, blocks.arrays, blocks.places, blocks.factors, between
+        point.slopes,
+        point.phi,
+        psi,
+        waves.mean_of_products,
+        blocks.arrays,
+        blocks.places,
+        blocks.factors,
+        between,
     )
     if point.memory is not None:
         point.memory.add_between(point.remembered, structure, point.phi, psi, waves, between)
@@ -492,12 +520,17 @@ def transposed(point: Point, v: Array, measure: MeasureSlopes | None = None) -> 
         forces[force] += weights
     if nodes is not None:
         forces[nodes.force] -= v[size:].reshape(forces.shape[1:])
-    channels = np.zeros_like(point.channels) if point.memory is None else point.memory.transposed(forces)
+    channels = (
+        np.zeros_like(point.channels) if point.memory is None else point.memory.transposed(forces)
+    )
     for channel, weights in measure.channels.items():
         channels[channel] += weights
     used = {*measure.forces, *(() if nodes is None else (nodes.force,))}
     _add_by_channels(
-        point.slopes, structure.slope_rows(used, () if nodes is None else (nodes.channel,)), forces, channels
+        point.slopes,
+        structure.slope_rows(used, () if nodes is None else (nodes.channel,)),
+        forces,
+        channels,
     )
     around = np.zeros((len(point.phi), waves.azimuths))
     _add_around(point.phi, structure.first_row, channels, around)

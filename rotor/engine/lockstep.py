@@ -14,7 +14,14 @@ from typing import Any
 import numpy as np
 
 from rotor.engine.linearise import Point, System
-from rotor.engine.newton import LAST_STEP_RATIO, MOST_SLOW_STEPS, Factors, NewtonLimits, Solved, steps_left
+from rotor.engine.newton import (
+    LAST_STEP_RATIO,
+    MOST_SLOW_STEPS,
+    Factors,
+    NewtonLimits,
+    Solved,
+    steps_left,
+)
 from rotor.engine.terms import Structure, summed
 from rotor.support.arrays import Array, Booleans, Integers
 
@@ -39,16 +46,23 @@ class _Points:
     def point(self, k: int) -> Point:
         """The point of one design."""
         channels, forces, slopes, flow = (
-            np.ascontiguousarray(each[:, k]) for each in (self.channels, self.forces, self.slopes, self.flow)
+            np.ascontiguousarray(each[:, k])
+            for each in (self.channels, self.forces, self.slopes, self.flow)
         )
         at, system = (self.x[k], self.z[k], self.by_roots[k], self.phi[k]), self.systems[k]
-        return Point(system, system.grid, *at, channels, forces, slopes, flow, self.q[k], self.residual[k])
+        return Point(
+            system, system.grid, *at, channels, forces, slopes, flow, self.q[k], self.residual[k]
+        )
 
 
 def can_share_steps(system: System, other: System) -> bool:
     """Whether two designs can lie beside each other; the section's data are for the caller to compare."""
     same = system.structure is other.structure and system.grid.waves is other.grid.waves
-    same = same and system.grid.varying.keys() == other.grid.varying.keys() and system.section is other.section
+    same = (
+        same
+        and system.grid.varying.keys() == other.grid.varying.keys()
+        and system.section is other.section
+    )
     nodes = [None if each.nodes is None else each.nodes.matrix for each in (system, other)]
     return same and nodes[0] is nodes[1] and np.array_equal(system.shapes.phi, other.shapes.phi)
 
@@ -72,7 +86,9 @@ class _SideBySide:
         s, waves, psi = one.structure, one.grid.waves, one.shapes.psi
         n, m = one.grid.steady.shape[1], waves.azimuths
         made = [system.make(row) for system, row in zip(systems, x[:, : s.given], strict=True)]
-        z: Array = np.concatenate([x[:, : s.given], np.array([derived for derived, _, _ in made])], axis=1)
+        z: Array = np.concatenate(
+            [x[:, : s.given], np.array([derived for derived, _, _ in made])], axis=1
+        )
         phi: Array = np.repeat(one.shapes.phi[None], count, axis=0)
         for channel, name in made[0][2]:
             row = s.first_row[channel] + s.shapes[channel][name]
@@ -84,11 +100,15 @@ class _SideBySide:
         around: Array = (g.reshape(-1, s.waves) @ waves.at).reshape(count, -1, m)
         for channel, (first, end) in enumerate(pairwise(s.first_row.tolist())):
             if end > first:
-                channels[channel] += np.matmul(phi[:, first:end].swapaxes(1, 2), around[:, first:end])
+                channels[channel] += np.matmul(
+                    phi[:, first:end].swapaxes(1, 2), around[:, first:end]
+                )
         for channel in one.grid.varying:
             channels[channel] += np.array([system.grid.varying[channel] for system in systems])
         if nodes is not None:
-            channels[nodes.channel] += np.array([nodes.field(y) for y in x[:, s.given :]]).reshape(count, n, m)
+            channels[nodes.channel] += np.array([nodes.field(y) for y in x[:, s.given :]]).reshape(
+                count, n, m
+            )
         forces, slopes, flow = self._section(channels, full)
         along: Array = np.zeros((count, len(psi), m))
         for force, (first, end) in enumerate(pairwise(s.first_weight.tolist())):
@@ -97,18 +117,24 @@ class _SideBySide:
         q = np.concatenate([np.ones((count, 1)), means], axis=1)
         residual = _residual(s, z, q)
         if nodes is not None:
-            residual = np.concatenate([residual, x[:, s.given :] - forces[nodes.force].reshape(count, -1)], axis=1)
+            residual = np.concatenate(
+                [residual, x[:, s.given :] - forces[nodes.force].reshape(count, -1)], axis=1
+            )
         size: Array = (np.abs(residual) / one.tolerance).max(axis=1)
         size = np.where(np.isfinite(size), size, math.inf)
         by_roots = [slope for _, slope, _ in made]
-        return _Points(systems, x, z, by_roots, phi, channels, forces, slopes, flow, q, residual, size)
+        return _Points(
+            systems, x, z, by_roots, phi, channels, forces, slopes, flow, q, residual, size
+        )
 
     def _section(self, channels: Array, full: bool) -> list[Array]:
         """Forces, slopes and flow, (rows, designs, elements, azimuths); without elements where not asked for."""
         rows, count, n, m = channels.shape
         if count not in self._data:
             self._data[count] = self._data_of(count)
-        fields = self.systems[0].section(channels.reshape(rows, count * n, m), self._data[count], full, full)
+        fields = self.systems[0].section(
+            channels.reshape(rows, count * n, m), self._data[count], full, full
+        )
         return [field.reshape(len(field), count, -1, m) for field in fields]
 
 
@@ -149,7 +175,9 @@ class _Unfinished:
         if len(self._before):
             shown, along = step - self._before, self._factors.weight * self.taken
             length = _along(along, shown)
-            change = np.divide(self.taken - shown, length, out=np.zeros_like(shown), where=length != 0.0)
+            change = np.divide(
+                self.taken - shown, length, out=np.zeros_like(shown), where=length != 0.0
+            )
             self._updates.append((change, along))
             step = step + change * _along(along, step)
         self._before = step
@@ -164,7 +192,11 @@ def _along(along: Array, step: Array) -> Array:
 
 
 def solve_together(
-    systems: Sequence[System], x: Array, factors: Factors, limits: NewtonLimits, data: Callable[[int], Any]
+    systems: Sequence[System],
+    x: Array,
+    factors: Factors,
+    limits: NewtonLimits,
+    data: Callable[[int], Any],
 ) -> list[Solved | None]:
     """What `newton.solve` makes of designs that `can_share_steps` accepts; None where it would need other derivatives
     than these.
@@ -173,14 +205,21 @@ def solve_together(
     """
     beside, one, passes = _SideBySide(systems, data), systems[0], 1
     points = beside(np.arange(len(systems)), x, full=False)
-    out = [Solved(points.point(k), 1, factors) if size <= 1.0 else None for k, size in enumerate(points.size.tolist())]
+    out = [
+        Solved(points.point(k), 1, factors) if size <= 1.0 else None
+        for k, size in enumerate(points.size.tolist())
+    ]
     going, still = _Unfinished(x, points, factors), points.size > 1.0
     while still.any() and passes < limits.most_passes:
         going.keep(still)
         over = going.step(one.limits)
         moved, before, last = going.x.copy(), going.size, going.expected <= LAST_STEP_RATIO
         moved[:, one.free] += going.taken
-        going.residual, going.size, passes = np.empty_like(going.residual), np.empty_like(before), passes + 1
+        going.residual, going.size, passes = (
+            np.empty_like(going.residual),
+            np.empty_like(before),
+            passes + 1,
+        )
         for some in (np.flatnonzero(~last), np.flatnonzero(last)):
             if not len(some):
                 continue
@@ -189,11 +228,16 @@ def solve_together(
             for k, place in enumerate(some.tolist()):
                 if points.size[k] <= 1.0:
                     keeps = points.size[k] <= limits.kept_ratio * before[place]
-                    out[int(going.which[place])] = Solved(points.point(k), passes, factors if keeps else None)
+                    out[int(going.which[place])] = Solved(
+                        points.point(k), passes, factors if keeps else None
+                    )
         ratio = going.size / before
         going.x, going.expected = moved, going.size * np.minimum(ratio, 1.0)
         going.slow = np.where(ratio > 1.0 - 0.1 / over, going.slow + 1.0, 0.0)
-        left = [steps_left(size, last, 1.0) for size, last in zip(going.size.tolist(), before.tolist(), strict=True)]
+        left = [
+            steps_left(size, last, 1.0)
+            for size, last in zip(going.size.tolist(), before.tolist(), strict=True)
+        ]
         still = (going.size > 1.0) & (ratio < 1.0) & (np.array(left) <= limits.most_kept_steps)
         still &= going.slow < MOST_SLOW_STEPS
     return out

@@ -87,7 +87,8 @@ def around(decay: Any, z: Any) -> None:
     """
     n = len(decay)
     value, rest, k = 0.0, 1.0, n
-    while k > 0 and rest > _NEGLIGIBLE:  # From zero at first, then with what one turn leaves of the start.
+    # From zero at first, then with what one turn leaves of the start.
+    while k > 0 and rest > _NEGLIGIBLE:
         k -= 1
         value += rest * z[k]
         rest *= decay[k]
@@ -124,7 +125,9 @@ def _back_around(decay: Any, z: Any) -> None:
             rest *= decay[k]
             k += 1
         for j in range(columns):
-            value[j] = z[n, j] + (0.0 if rest == 1.0 else (value[j] + rest * z[n, j]) / (1.0 - rest))
+            value[j] = z[n, j] + (
+                0.0 if rest == 1.0 else (value[j] + rest * z[n, j]) / (1.0 - rest)
+            )
             z[n, j] = 0.0
         for k in range(n - 1, -1, -1):
             for j in range(columns):
@@ -234,7 +237,10 @@ def _back(lags: Any, left: Any, means: Any, out: Any) -> None:
     """(L N)ᵀ times functions of azimuth on each force, (azimuths, functions), (elements, inputs, azimuths, …)."""
     (azimuths, functions), fine = means.shape, lags.decays.shape[2]
     steps, columns = fine // azimuths, len(left) * functions
-    z, weights = np.empty((len(lags.decaying), fine + 1, columns)), np.empty((OUTPUTS + 1, azimuths, columns))
+    z, weights = (
+        np.empty((len(lags.decaying), fine + 1, columns)),
+        np.empty((OUTPUTS + 1, azimuths, columns)),
+    )
     for e in range(len(out)):
         z[:], out[e] = 0.0, 0.0
         for k in range(OUTPUTS + 1):
@@ -318,7 +324,13 @@ class LagFactors:
         return out
 
     def add_between(
-        self, by_inputs: Array, structure: Structure, phi: Array, psi: Array, waves: WaveGrid, out: Array
+        self,
+        by_inputs: Array,
+        structure: Structure,
+        phi: Array,
+        psi: Array,
+        waves: WaveGrid,
+        out: Array,
     ) -> None:
         """Add ∂ of the measures by the coefficients of the shapes, (coefficients, measures).
 
@@ -331,7 +343,10 @@ class LagFactors:
         weight, other = np.divmod(structure.measure_places, structure.waves)
         elements, count = len(by_inputs), structure.waves
         ends = structure.first_weight[self.used], structure.first_weight[self.used + 1]
-        measures = [np.flatnonzero((weight >= first) & (weight < last)) for first, last in zip(*ends, strict=True)]
+        measures = [
+            np.flatnonzero((weight >= first) & (weight < last))
+            for first, last in zip(*ends, strict=True)
+        ]
         from_inputs = by_inputs.reshape(elements, -1, len(self.used) * count).swapaxes(1, 2)
         for channel, right in enumerate(self.right.swapaxes(0, 1)):
             begin, end = structure.first_row[channel : channel + 2]
@@ -343,4 +358,6 @@ class LagFactors:
             for k, (first, last) in enumerate(zip(*ends, strict=True)):
                 pairs = (psi[first:last, None] * phi[None, begin:end]).reshape(-1, elements)
                 product = (pairs @ between[:, k]).reshape(last - first, end - begin, count, count)
-                _add_pairs(product, (weight, first, other, measures[k]), (row, begin, wave, columns), out)
+                _add_pairs(
+                    product, (weight, first, other, measures[k]), (row, begin, wave, columns), out
+                )

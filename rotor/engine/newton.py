@@ -78,7 +78,9 @@ class Factors:
     def solve(self, right: Array, *, transposed: bool = False) -> Array:
         """J⁻¹ b or J⁻ᵀ b."""
         solver = dgetrs if self.lu.dtype == np.float64 else sgetrs
-        return np.asarray(solver(self.lu, self.pivots, right, trans=int(not transposed))[0], dtype=np.float64)
+        return np.asarray(
+            solver(self.lu, self.pivots, right, trans=int(not transposed))[0], dtype=np.float64
+        )
 
 
 @dataclass(frozen=True)
@@ -113,7 +115,9 @@ class Solved:
     """Factors of the last step, where they left little of the residual."""
 
 
-def solve_transposed(point: Point, right: Array, near: Factors, tolerance: float = KRYLOV_TOLERANCE) -> Array | None:
+def solve_transposed(
+    point: Point, right: Array, near: Factors, tolerance: float = KRYLOV_TOLERANCE
+) -> Array | None:
     """J⁻ᵀ b at a point with slopes, from the factors of a Jacobian nearby; None where these are too far.
 
     By flexible generalised minimal residuals (Saad, SIAM J. Sci. Comput. 14, 1993): with factors in single precision
@@ -121,7 +125,10 @@ def solve_transposed(point: Point, right: Array, near: Factors, tolerance: float
     Hessenberg matrix: the residual is |b|/|g|.
     """
     size = float(np.linalg.norm(right))
-    basis, steps = np.empty((_MOST_PRODUCTS + 1, len(right))), np.empty((_MOST_PRODUCTS, len(right)))
+    basis, steps = (
+        np.empty((_MOST_PRODUCTS + 1, len(right))),
+        np.empty((_MOST_PRODUCTS, len(right))),
+    )
     hessenberg, g = np.zeros((_MOST_PRODUCTS + 1, _MOST_PRODUCTS)), np.ones(_MOST_PRODUCTS + 1)
     if not size:
         return np.zeros_like(right)
@@ -175,7 +182,9 @@ class _Corrected:
         return -step
 
 
-def solve(system: System, x: Array, factors: Factors | None = None, limits: NewtonLimits = DEFAULT_LIMITS) -> Solved:
+def solve(
+    system: System, x: Array, factors: Factors | None = None, limits: NewtonLimits = DEFAULT_LIMITS
+) -> Solved:
     """From x = (1, numbers, states): with factors on all azimuths at once, else on few azimuths first."""
     run = _Steps(system, factors, limits)
     if factors is None and system.thin is not system.grid and limits.most_passes > 1:
@@ -191,7 +200,9 @@ def solve(system: System, x: Array, factors: Factors | None = None, limits: Newt
 class _Steps:
     """The steps of one solution."""
 
-    def __init__(self, system: System, factors: Factors | None, limits: NewtonLimits, passes: int = 0) -> None:
+    def __init__(
+        self, system: System, factors: Factors | None, limits: NewtonLimits, passes: int = 0
+    ) -> None:
         self.passes = passes
         self.latest = factors
         self.serving = factors is not None
@@ -203,7 +214,13 @@ class _Steps:
 
     def __call__(self, grid: Grid, x: Array, goal: float, most_steps: float) -> Point:
         """Steps until the residual is within `goal` times the tolerance, or no more progress is made."""
-        system, limits, slow_steps, rises, near = self._system, self._limits, 0, 0, self._corrected is not None
+        system, limits, slow_steps, rises, near = (
+            self._system,
+            self._limits,
+            0,
+            0,
+            self._corrected is not None,
+        )
         if self._corrected is not None:
             self._corrected.begin()
         judged = system.nodes is None or x[system.structure.given :].any()
@@ -238,14 +255,20 @@ class _Steps:
             most = most_steps if self._made else limits.most_kept_steps
             if judged and steps_left(trial.size, point.size, goal) > most:
                 self._corrected = None
-            judged = True  # Not the first step from `begin`, which shows how far the nodes were off.
+            # Not the first step from `begin`, which shows how far the nodes were off.
+            judged = True
             expected = trial.size * min(trial.size / point.size, 1.0)
             if trial.size >= point.size and not fresh:
                 self._corrected = None  # The old derivatives do not serve here: take the step again with new ones.
                 continue
-            hoped = part / max(1.0, length)  # The residual is expected to fall to 1 − hoped of itself.
+            # The residual is expected to fall to 1 − hoped of itself.
+            hoped = part / max(1.0, length)
             rises += nearer
-            slow_steps = slow_steps + 1 if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer else 0
+            slow_steps = (
+                slow_steps + 1
+                if trial.size > (1.0 - 0.1 * hoped) * point.size and not nearer
+                else 0
+            )
             if trial.size < point.size or nearer or slow_steps < MOST_SLOW_STEPS:
                 point = trial
         return point
@@ -267,7 +290,11 @@ class _Steps:
     def _differentiate(self, point: Point) -> _Corrected:
         """New factors, on few azimuths."""
         system = self._system
-        near = point if point.grid is system.thin else evaluate(system, system.thin, point.x, slopes=True)
+        near = (
+            point
+            if point.grid is system.thin
+            else evaluate(system, system.thin, point.x, slopes=True)
+        )
         if not near.slopes.shape[1]:
             near = evaluate(system, system.thin, point.x, slopes=True)
         self._made += 1

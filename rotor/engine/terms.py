@@ -33,7 +33,16 @@ def summed(place: Integers, values: Array, size: int) -> Array:
 
 @compiled(error_model="numpy")
 def _slopes(
-    row: Any, measure: Any, first: Any, second: Any, factor: Any, z: Any, q: Any, skipped: int, by_q: Any, by_z: Any
+    row: Any,
+    measure: Any,
+    first: Any,
+    second: Any,
+    factor: Any,
+    z: Any,
+    q: Any,
+    skipped: int,
+    by_q: Any,
+    by_z: Any,
 ) -> None:
     """`Terms.slopes`; skipped: atoms before the first."""
     for k in range(len(row)):
@@ -76,7 +85,9 @@ class Terms:
         """Terms from their list; rows: number of equations."""
         places = [(*term[:4], term[5] if len(term) > 5 else ONE) for term in terms]
         columns = np.array(places, dtype=np.int64).reshape(-1, 5).T.copy()
-        return cls(*columns, factor=np.array([term[4] for term in terms], dtype=np.float64), rows=rows)
+        return cls(
+            *columns, factor=np.array([term[4] for term in terms], dtype=np.float64), rows=rows
+        )
 
     def value(self, z: Array, q: Array) -> Array:
         """(rows,)"""
@@ -86,8 +97,14 @@ class Terms:
     def slopes(self, z: Array, q: Array, first_atom: int) -> tuple[Array, Array]:
         """∂ by the measures, (rows, measures), and by the atoms from one on, (rows, atoms)."""
         by_q, by_z = np.zeros((self.rows, len(q))), np.zeros((self.rows, len(z) - first_atom))
-        factor, q = self.factor * z[self.number], np.ascontiguousarray(q)  # One kernel for a column of many, too.
-        _slopes(self.row, self.measure, self.first, self.second, factor, z, q, first_atom, by_q, by_z)
+        # One kernel for a column of many, too.
+        factor, q = (
+            self.factor * z[self.number],
+            np.ascontiguousarray(q),
+        )
+        _slopes(
+            self.row, self.measure, self.first, self.second, factor, z, q, first_atom, by_q, by_z
+        )
         return by_q, by_z
 
     @fixed_property
@@ -128,16 +145,21 @@ def _kind_of(name: Hashable) -> Hashable:
 class Structure:
     """Atoms, columns, measures and equations, and once finished all places in the matrices."""
 
-    def __init__(self, pairs: tuple[tuple[int, int], ...], channels: int, forces: int, name: Hashable = None) -> None:
+    def __init__(
+        self, pairs: tuple[tuple[int, int], ...], channels: int, forces: int, name: Hashable = None
+    ) -> None:
         """pairs: force and channel of each row of the section's partial derivatives.
 
         name: the same for structures with the same atoms and equations.
         """
         self.pairs, self.channels, self.forces, self.name = pairs, channels, forces, name
-        self.numbers, self.states, self.derived = (dict[Hashable, int]() for _ in range(3))  # Atoms by name.
+        # Atoms by name.
+        self.numbers, self.states, self.derived = (dict[Hashable, int]() for _ in range(3))
         self.roots: tuple[int, ...] = ()
         """States that derived atoms follow."""
-        self.shapes, self.weights = ([dict[Shape, int]() for _ in range(count)] for count in (channels, forces))
+        self.shapes, self.weights = (
+            [dict[Shape, int]() for _ in range(count)] for count in (channels, forces)
+        )
         """By channel, and by force."""
         self.columns = list[tuple[int, int, int, int, int, float]]()
         self.measures = dict[tuple[int, int, int], int]()
@@ -161,10 +183,19 @@ class Structure:
 
     def quantity(self, name: Hashable) -> int:
         """The atom of a quantity derived from states."""
-        return self.derived.setdefault(name, 1 + len(self.numbers) + len(self.states) + len(self.derived))
+        return self.derived.setdefault(
+            name, 1 + len(self.numbers) + len(self.states) + len(self.derived)
+        )
 
     def column(
-        self, channel: int, shape: Shape, wave: int, factor: float, i: int, j: int = ONE, times: int = STEADY
+        self,
+        channel: int,
+        shape: Shape,
+        wave: int,
+        factor: float,
+        i: int,
+        j: int = ONE,
+        times: int = STEADY,
     ) -> None:
         """Add factor · z_i z_j · Φ(r) w_wave(ψ) w_times(ψ) to a channel."""
         shapes = self.shapes[channel]
@@ -187,7 +218,15 @@ class Structure:
             raise ValueError(f"There is already an equation {name!r}: give this one another name.")
         return self.equations.setdefault(name, len(self.equations))
 
-    def term(self, equation: int, factor: float, i: int = ONE, j: int = ONE, q: int = 0, number: int = ONE) -> None:
+    def term(
+        self,
+        equation: int,
+        factor: float,
+        i: int = ONE,
+        j: int = ONE,
+        q: int = 0,
+        number: int = ONE,
+    ) -> None:
         """Add factor · z_i z_j Q_q to an equation, times a number."""
         self.terms.append((equation, q, i, j, factor, number))
 
@@ -195,7 +234,8 @@ class Structure:
         """Add a measure that is a sum of terms."""
         numbers = [term[4] if len(term) > 4 else ONE for term in terms]
         self.sums[name] = Terms.of(
-            [(0, t[3], t[1], t[2], t[0], number) for t, number in zip(terms, numbers, strict=True)], 1
+            [(0, t[3], t[1], t[2], t[0], number) for t, number in zip(terms, numbers, strict=True)],
+            1,
         )
 
     def finish(self, free: Sequence[int]) -> "Structure":
@@ -205,7 +245,9 @@ class Structure:
                 f"{len(free)} states have {len(self.equations)} equations: give one equation for each state."
             )
         self.free = np.array(free, dtype=np.int64)
-        highest = max([0, *(column[2] for column in self.columns), *(key[2] for key in self.measures)])
+        highest = max(
+            [0, *(column[2] for column in self.columns), *(key[2] for key in self.measures)]
+        )
         self.waves, self.finished = highest + 1 + highest % 2, True
         fix(self.free)
         return self
@@ -290,7 +332,9 @@ class Structure:
         atoms, column = np.concatenate([i, j]) - self.first_state, np.tile(column, 2)
         order = np.argsort(atoms, kind="stable")
         order = order[atoms[order] >= 0]
-        first = np.searchsorted(atoms[order], np.arange(self.given + len(self.derived) - self.first_state + 1))
+        first = np.searchsorted(
+            atoms[order], np.arange(self.given + len(self.derived) - self.first_state + 1)
+        )
         shape = len(first) - 1, len(self.coefficient_places)
         pattern = csr_matrix((np.zeros(len(order)), column[order], first), shape)
         fix((pattern.data, pattern.indices, pattern.indptr))
@@ -309,7 +353,11 @@ class Structure:
         key = frozenset(others), frozenset(further)
         if key not in self._slope_rows:
             used = [bool(weights) or o in others for o, weights in enumerate(self.weights)]
-            rows = [(k, o, c) for k, (o, c) in enumerate(self.pairs) if used[o] and (self.shapes[c] or c in further)]
+            rows = [
+                (k, o, c)
+                for k, (o, c) in enumerate(self.pairs)
+                if used[o] and (self.shapes[c] or c in further)
+            ]
             self._slope_rows[key] = np.array(rows, dtype=np.int64).reshape(-1, 3)
             fix(self._slope_rows[key])
         return self._slope_rows[key]
@@ -322,14 +370,22 @@ class Structure:
         changing = np.zeros(len(row), dtype=np.bool_)
         _, first, second, _ = self.column_arrays
         changing[self._coefficients[1][np.maximum(first, second) >= self.first_state]] = True
-        keys, arrays, places, factors = self.measure_keys, list[list[int]](), list[Array](), list[Array]()
+        keys, arrays, places, factors = (
+            self.measure_keys,
+            list[list[int]](),
+            list[Array](),
+            list[Array](),
+        )
         entries = 0
         for slope, (o, c) in enumerate(self.pairs):
             rows = np.flatnonzero(keys[:, 0] == o)
-            mine = np.flatnonzero((row >= self.first_row[c]) & (row < self.first_row[c + 1]) & changing)
+            mine = np.flatnonzero(
+                (row >= self.first_row[c]) & (row < self.first_row[c + 1]) & changing
+            )
             if not len(rows) or not len(mine):
                 continue
-            shapes = int(row[mine].max()) + 1 - int(self.first_row[c])  # Those that do not change come last.
+            # Those that do not change come last.
+            shapes = int(row[mine].max()) + 1 - int(self.first_row[c])
             pair = keys[rows, 1] * shapes + (row[mine] - self.first_row[c])[:, None]
             both = slice(None), keys[rows, 2][None, :], wave[mine][:, None]
             spectrum = 1 + 2 * int((keys[rows, 2].max() + 1) // 2 + (wave[mine].max() + 1) // 2)

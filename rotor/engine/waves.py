@@ -29,7 +29,12 @@ def rate_of(wave: int) -> tuple[int, float]:
 
 def times_wave(p: int, s: int) -> list[tuple[int, float]]:
     """w_p w_s as a sum of at most two waves with their factors."""
-    a, b, sine_a, sine_b = harmonic_of(p), harmonic_of(s), p > 0 and p % 2 == 0, s > 0 and s % 2 == 0
+    a, b, sine_a, sine_b = (
+        harmonic_of(p),
+        harmonic_of(s),
+        p > 0 and p % 2 == 0,
+        s > 0 and s % 2 == 0,
+    )
     if sine_a != sine_b:  # sin A cos B = ½ sin(A + B) + ½ sin(A − B)
         a, b = (a, b) if sine_a else (b, a)
         parts = [(a + b, True, 0.5), (abs(a - b), True, 0.5 if a > b else -0.5)]

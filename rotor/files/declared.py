@@ -29,7 +29,13 @@ Share = Annotated[float, Meta(ge=0.0, le=1.0)]
 Number = Annotated[float, Meta(ge=-1e12, le=1e12)]
 """No quantity is larger, and a number without bounds may be NaN or infinite."""
 Whole = Annotated[int, Meta(ge=-(10**12), le=10**12)]
-BY_KIND: dict[Kind, Any] = {"number": Number, "whole": Whole, "text": str, "choice": str, "switch": bool}
+BY_KIND: dict[Kind, Any] = {
+    "number": Number,
+    "whole": Whole,
+    "text": str,
+    "choice": str,
+    "switch": bool,
+}
 """What a file gives for each kind of quantity."""
 
 
@@ -57,7 +63,9 @@ def convert(value: Any, declared: type[Declared], *place: str) -> Declared:
     except msgspec.ValidationError as error:
         found, cause = re.search(r" - at `\$([\w.\[\]]+)`$", str(error)), error.__cause__
     except UnicodeEncodeError as error:
-        raise Refusal(f"{shorten(repr(error.object))} holds half of a character: write it whole") from None
+        raise Refusal(
+            f"{shorten(repr(error.object))} holds half of a character: write it whole"
+        ) from None
     at: Place = place
     options = _options(inspect.type_info(declared))
     for key, position in re.findall(r"\.(\w+)|\[(\d+)\]", found[1] if found else ""):
@@ -79,7 +87,12 @@ def _below(declared: inspect.Type, part: str | int) -> list[inspect.Type]:
     """The types that a key of a table, or a value of a list, may have."""
     match declared:
         case inspect.StructType(fields=fields):
-            return [each for field in fields if field.encode_name == part for each in _options(field.type)]
+            return [
+                each
+                for field in fields
+                if field.encode_name == part
+                for each in _options(field.type)
+            ]
         case inspect.VarTupleType(item_type=item):
             return _options(item)
         case inspect.TupleType(item_types=items):
@@ -96,17 +109,27 @@ def _refusal(place: Place, value: Any, options: list[inspect.Type]) -> Refusal:
                 return _wrong_key(place, cast("dict[str, Any]", value), each)
             case inspect.VarTupleType(), []:
                 return Refusal(f"{_key(place)[0]} has no values: give at least one", *place)
-            case inspect.LiteralType(values=choices), _ if isinstance(value, str) or len(options) == 1:
+            case inspect.LiteralType(values=choices), _ if (
+                isinstance(value, str) or len(options) == 1
+            ):
                 names = [str(choice) for choice in choices]
                 hint = (isinstance(value, str) and did_you_mean(value, names)) or ":"
-                return Refusal(f"{_entry(place, repr(value))}{hint} use {' or '.join(names)}", *place)
-            case (inspect.IntType(ge=low, le=high), int()) | (inspect.FloatType(ge=low, le=high), int() | float()):
+                return Refusal(
+                    f"{_entry(place, repr(value))}{hint} use {' or '.join(names)}", *place
+                )
+            case (inspect.IntType(ge=low, le=high), int()) | (
+                inspect.FloatType(ge=low, le=high),
+                int() | float(),
+            ):
                 if not isinstance(value, bool):
                     return _out_of_bounds(place, value, low, high)
             case _:
                 pass
     wanted, examples = zip(*(_WORDS[type(each)] for each in options), strict=True)
-    return Refusal(f"{_entry(place, repr(value))}, not {' or '.join(wanted)}: write for example {examples[0]}", *place)
+    return Refusal(
+        f"{_entry(place, repr(value))}, not {' or '.join(wanted)}: write for example {examples[0]}",
+        *place,
+    )
 
 
 def _wrong_key(place: Place, table: dict[str, Any], declared: inspect.StructType) -> Refusal:
@@ -119,7 +142,10 @@ def _wrong_key(place: Place, table: dict[str, Any], declared: inspect.StructType
     missing = next(key for key, field in known.items() if field.required and key not in table)
     where = ".".join(part for part in place if isinstance(part, str))
     example = _WORDS[type(_options(known[missing].type)[0])][1]
-    return Refusal(f"{f'[{where}]' if where else 'the file'} has no {missing}: add {missing} = {example}", *place)
+    return Refusal(
+        f"{f'[{where}]' if where else 'the file'} has no {missing}: add {missing} = {example}",
+        *place,
+    )
 
 
 _WORDS: dict[type[inspect.Type], tuple[str, str]] = {
@@ -154,7 +180,11 @@ def check_bounds(value: float, low: float, high: float, *place: str | int, given
 
 
 def _out_of_bounds(
-    place: Place, value: float, low: float | None, high: float | None, remedy: str = ": check value and unit"
+    place: Place,
+    value: float,
+    low: float | None,
+    high: float | None,
+    remedy: str = ": check value and unit",
 ) -> Refusal:
     bounds = f"{low:g}…{high:g} {unit_of(_key(place)[0])}".rstrip()
     number = f"{value:g}" if isinstance(value, float) else str(value)
@@ -165,9 +195,13 @@ def one_of(table: FileTable, *keys: str) -> str:
     """The key that a table has; Refusal unless it is exactly one of these."""
     given = [key for key in keys if getattr(table, key) is not None]
     if len(given) > 1:
-        raise Refusal(f"{given[0]} and {given[1]} give the same quantity: keep one of them", given[1])
+        raise Refusal(
+            f"{given[0]} and {given[1]} give the same quantity: keep one of them", given[1]
+        )
     if not given:
-        raise Refusal(f"there is no {' or '.join(keys)}: add {'one of them' if len(keys) > 1 else 'it'}")
+        raise Refusal(
+            f"there is no {' or '.join(keys)}: add {'one of them' if len(keys) > 1 else 'it'}"
+        )
     return given[0]
 
 
@@ -196,7 +230,9 @@ def read_toml(file: str, text: str) -> dict[str, Any]:
             f"{file}{place}: this is not TOML ({reason}): write key = value, texts in quotes{slashes}"
         ) from None
     except RecursionError:
-        raise ValueError(f"{file}: this is not a file of this program (too many brackets): write key = value") from None
+        raise ValueError(
+            f"{file}: this is not a file of this program (too many brackets): write key = value"
+        ) from None
     except ValueError:
         raise ValueError(f"{file}: an integer has thousands of digits: check the values") from None
 
@@ -214,7 +250,8 @@ def find_line(text: str, place: Place) -> int | None:
     tables: list[int] = []
     for number, line in enumerate(text.splitlines(), start=1):
         bare = line.partition("#")[0].strip()
-        if bare.startswith("[") and bare.endswith("]"):  # A pattern was slow on a long line without one.
+        # A pattern was slow on a long line without one.
+        if bare.startswith("[") and bare.endswith("]"):
             header = tuple(part.strip().strip("\"'") for part in bare.strip("[] \t").split("."))
             if header == path:
                 tables.append(number)

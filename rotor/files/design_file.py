@@ -42,7 +42,10 @@ def _declared(row: Quantity) -> Any:
     return Literal[row.choices] if row.kind == "choice" else BY_KIND[row.kind]
 
 
-_FIELDS = [(key, Any if key in _READ_LATER else _declared(BY_KEY[key]), None) for key in (*BY_KEY, *_BESIDE)]
+_FIELDS = [
+    (key, Any if key in _READ_LATER else _declared(BY_KEY[key]), None)
+    for key in (*BY_KEY, *_BESIDE)
+]
 _Record = msgspec.defstruct("_Record", _FIELDS, bases=(FileTable,))
 
 
@@ -91,7 +94,9 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
             f"design file is {kind[0]!r} version {kind[1]!r}: this program reads {FORMAT!r} version {VERSION}"
         )
     if (speed := next((name for name in SPEED if name in record), None)) is not None:
-        raise ValueError(f"unknown key {speed!r}: write advance_ratio, the speed over that of the blade tip")
+        raise ValueError(
+            f"unknown key {speed!r}: write advance_ratio, the speed over that of the blade tip"
+        )
     given = convert(record, _Record)
     aircraft = read_rotor_record(record.get("rotor", SHIPPED_ROTORS[0]), paths=paths)
     stand = record.get("stand")
@@ -101,14 +106,17 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
         )
     asked = {row.name: getattr(given, row.key) for row in _ARGUMENTS if row.key in record}
     asked["rotor"] = aircraft
-    grid = {name: asked.pop(name) for name in _GRID if name in asked}  # May be too fine for the preset's inflow.
+    # May be too fine for the preset's inflow.
+    grid = {name: asked.pop(name) for name in _GRID if name in asked}
     design = make_design(**{name: value for name, value in asked.items() if value != ""})
     changed = {row.field: getattr(given, row.key) for row in _MODELS if row.key in record}
     models = with_grid(replace(design.models, **changed), **grid)
     inflow_model(models.inflow)
     if "active_twist" in record:
         if design.active_twist is not None:
-            raise ValueError("design file has both 'active_twist' and 'twist_per_rev', which mean the same: keep one")
+            raise ValueError(
+                "design file has both 'active_twist' and 'twist_per_rev', which mean the same: keep one"
+            )
         design = replace(design, active_twist=read_active_twist(record["active_twist"]))
     design = replace(design, models=models)
     if (carried := record.get("actuator")) is not None:
@@ -121,7 +129,10 @@ def _with_carried(design: Design, record: Any) -> Design:
     """The design with the actuator of a record, whose mass on board is in the design's own."""
     carried = convert(record, _Carried, "actuator")
     inner, outer = carried.span_m
-    if not 0.0 < inner < outer <= 1.001 * design.rotor.radius or not 0.1 <= carried.gj_factor <= 2.0:
+    if (
+        not 0.0 < inner < outer <= 1.001 * design.rotor.radius
+        or not 0.1 <= carried.gj_factor <= 2.0
+    ):
         raise ValueError(
             f"design file key 'actuator' has span_m {inner:g}…{outer:g} and gj_factor {carried.gj_factor:g}: give a "
             "span on the blade and a factor of 0.1 to 2"
@@ -150,7 +161,9 @@ def parse_design(content: bytes, name: str) -> Design:
     with refusing(f"design file {name!r}", "give a JSON design file"):
         record = _record(content, name)
         if "table:" in str(record.get("twist", "")):
-            raise ValueError(f"design file {name!r} has a twist table of another machine: write its rows as points:…@…")
+            raise ValueError(
+                f"design file {name!r} has a twist table of another machine: write its rows as points:…@…"
+            )
         return _named(record, name)
 
 
@@ -166,12 +179,24 @@ def _record(content: bytes, name: str) -> dict[str, Any]:
     try:
         record = json.loads(content)
     except UnicodeDecodeError:
-        raise ValueError(f"design file {name!r} cannot be read (not UTF-8 text): give a JSON design file") from None
+        raise ValueError(
+            f"design file {name!r} cannot be read (not UTF-8 text): give a JSON design file"
+        ) from None
     except json.JSONDecodeError as error:
-        where = f"line {error.lineno}, column {error.colno}: {error.msg}" if content.strip() else "it is empty"
-        raise ValueError(f"design file {name!r} is not JSON ({where}): give a JSON design file") from None
+        where = (
+            f"line {error.lineno}, column {error.colno}: {error.msg}"
+            if content.strip()
+            else "it is empty"
+        )
+        raise ValueError(
+            f"design file {name!r} is not JSON ({where}): give a JSON design file"
+        ) from None
     except ValueError:
-        raise ValueError(f"design file {name!r} holds an integer of thousands of digits: check the values") from None
+        raise ValueError(
+            f"design file {name!r} holds an integer of thousands of digits: check the values"
+        ) from None
     if not isinstance(record, dict):
-        raise ValueError(f'design file {name!r} is not a JSON object: write {{"twist": "linear:-8", …}}')
+        raise ValueError(
+            f'design file {name!r} is not a JSON object: write {{"twist": "linear:-8", …}}'
+        )
     return cast(dict[str, Any], record)

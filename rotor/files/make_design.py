@@ -13,7 +13,16 @@ from rotor.design.active_twist import PerRev, linear_active_twist, read_harmonic
 from rotor.design.aircraft import Aircraft, FlightCondition, Stand, changed_condition, read_stand
 from rotor.design.blade import Rotor, with_airfoils
 from rotor.design.design import Design, Models, check_preset, preset_models, with_grid, with_numbers
-from rotor.design.quantities import ARGUMENTS, HOVER_INFLOWS, LOAD_KEYS, OPTIONS, PRESETS, STAND_TRIMS, SWEPT, Flight
+from rotor.design.quantities import (
+    ARGUMENTS,
+    HOVER_INFLOWS,
+    LOAD_KEYS,
+    OPTIONS,
+    PRESETS,
+    STAND_TRIMS,
+    SWEPT,
+    Flight,
+)
 from rotor.design.quantity import check_names
 from rotor.design.twist import TwistLaw
 from rotor.files.rotor_file import ISOLATED_LOADING, find_aircraft, shipped_aircraft
@@ -83,7 +92,9 @@ def make_design(
     """
     check_names(make_design, flight, SWEPT, _other_way)
     asked = {"mu": mu, "hover": hover, "bending": bending, **flight}
-    _check_type(str, "a text", preset=preset, inflow=inflow, low_speed=low_speed, loss_on=loss_on, trim=trim)
+    _check_type(
+        str, "a text", preset=preset, inflow=inflow, low_speed=low_speed, loss_on=loss_on, trim=trim
+    )
     _check_type(str, "a text", airfoils=airfoils, off=off)
     _check_type(Integral, "a whole number", elements=elements, azimuths=azimuths)
     _check_type(Design, "a design: give what rotor.load_design or make_design returns", case=case)
@@ -98,13 +109,19 @@ def make_design(
     own = kept.twist if kept and kept.twist != aircraft.twist_for(kept.preset) else None
     models = models or (case.models if case and name == case.preset else preset_models(name))
     models, stand = _test(aircraft, models, trim, stand, kept)
-    chosen = {"low_speed": low_speed, "loss_on": loss_on, **{option: True for option in OPTIONS if asked[option]}}
+    chosen = {
+        "low_speed": low_speed,
+        "loss_on": loss_on,
+        **{option: True for option in OPTIONS if asked[option]},
+    }
     blades, body = aircraft.rotor_for(name), kept or aircraft
     before = case.condition if case else FlightCondition(ADVANCE_RATIO, aircraft.mass, stand=stand)
     overrides = {"stand": stand} if rotor is None else {"stand": stand, "mass": aircraft.mass}
     active, pitch = blade.active_twist if blade else None, case.pitch_per_rev if case else ()
     if twist_per_rev is not None:
-        active = linear_active_twist(read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout)
+        active = linear_active_twist(
+            read_harmonics(twist_per_rev, "twist_per_rev"), blades.blade.root_cutout
+        )
     design = Design(
         preset=name,
         aircraft=aircraft,
@@ -116,7 +133,9 @@ def make_design(
         models=with_grid(_changed(models, inflow, off, chosen), elements, azimuths),
         active_twist=active,
         gust=case.gust if case else None,
-        pitch_per_rev=pitch if pitch_per_rev is None else read_harmonics(pitch_per_rev, "pitch_per_rev"),
+        pitch_per_rev=pitch
+        if pitch_per_rev is None
+        else read_harmonics(pitch_per_rev, "pitch_per_rev"),
     )
     design = with_numbers(design, asked)
     if twist is not None:
@@ -129,7 +148,10 @@ def make_design(
 
 if make_design.__doc__:  # `python -OO` drops docstrings.
     choices = {"inflow": (*INFLOW_MODELS, *HOVER_INFLOWS)}
-    words = (f"{name}: {row.help_with(choices.get(name, row.choices))}." for name, row in ARGUMENTS.items())
+    words = (
+        f"{name}: {row.help_with(choices.get(name, row.choices))}."
+        for name, row in ARGUMENTS.items()
+    )
     make_design.__doc__ = cleandoc(make_design.__doc__).replace("{arguments}", "\n    ".join(words))
 
 
@@ -146,38 +168,61 @@ def _aircraft(rotor: Aircraft | str | None, case: Design | None) -> Aircraft:
     if isinstance(rotor, str):
         return find_aircraft(rotor)
     if not isinstance(rotor, Aircraft):  # pyright: ignore[reportUnnecessaryIsInstance] - notebooks pass anything
-        raise TypeError(f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or a rotor file, "mine.toml"')
+        raise TypeError(
+            f'rotor {rotor!r} is not a rotor: use a name such as "uh60a", or a rotor file, "mine.toml"'
+        )
     return rotor
 
 
-def _kept(case: Design | None, rotor: Aircraft | str | None, preset: str) -> tuple[Design | None, Design | None]:
+def _kept(
+    case: Design | None, rotor: Aircraft | str | None, preset: str
+) -> tuple[Design | None, Design | None]:
     """The case where its aircraft stays, and where its blade does too: not on another rotor, nor of another preset."""
     kept = case if rotor is None else None
     blade = kept if kept and kept.preset == preset else None
     carried = case.rotor.blade.carried if case and not blade else None
     if carried is not None:
-        raise ValueError(f"the blades of the case carry {carried.name}: leave rotor and preset as they are")
+        raise ValueError(
+            f"the blades of the case carry {carried.name}: leave rotor and preset as they are"
+        )
     return kept, blade
 
 
-def _changed(models: Models, inflow: str | None, off: str | None, chosen: Mapping[str, str | bool | None]) -> Models:
+def _changed(
+    models: Models, inflow: str | None, off: str | None, chosen: Mapping[str, str | bool | None]
+) -> Models:
     """The models with an inflow model by name, choices by field, which they check, and without some effects."""
     if inflow is not None:
         check_known("inflow model", inflow, (*INFLOW_MODELS, *HOVER_INFLOWS))
-        models = replace(models, **{"inflow" if inflow in INFLOW_MODELS else "hover_inflow": inflow})
-    models = replace(models, **{field: value for field, value in chosen.items() if value is not None})
+        models = replace(
+            models, **{"inflow" if inflow in INFLOW_MODELS else "hover_inflow": inflow}
+        )
+    models = replace(
+        models, **{field: value for field, value in chosen.items() if value is not None}
+    )
     return replace(models, **dict.fromkeys(parse_switches(off), False)) if off else models
 
 
 def _test(
-    aircraft: Aircraft, models: Models, trim: str | None, stand: Stand | Mapping[str, Any] | None, case: Design | None
+    aircraft: Aircraft,
+    models: Models,
+    trim: str | None,
+    stand: Stand | Mapping[str, Any] | None,
+    case: Design | None,
 ) -> tuple[Models, Stand | None]:
     """The models with the trim asked for, and the test stand that goes with it, on top of that of a case."""
-    if case and case.condition.stand and trim in (None, case.models.trim) and not isinstance(stand, Stand):
+    if (
+        case
+        and case.condition.stand
+        and trim in (None, case.models.trim)
+        and not isinstance(stand, Stand)
+    ):
         trim, given = case.models.trim, stand or {}
         loaded = any(key in given for key in LOAD_KEYS)
         before = case.condition.stand.record().items()
-        stand = {key: value for key, value in before if not (loaded and key in LOAD_KEYS)} | dict(given)
+        stand = {key: value for key, value in before if not (loaded and key in LOAD_KEYS)} | dict(
+            given
+        )
     if trim is None:
         tested = stand is not None or aircraft.isolated
         trim = models.trim if models.trim in STAND_TRIMS or not tested else STAND_TRIMS[0]
@@ -198,7 +243,9 @@ def change_airfoils(rotor: Rotor, spec: str) -> Rotor:
     try:
         breaks = [float(item) for item in places.split(",")] if places else []
     except ValueError:
-        raise ValueError(f"airfoils {spec!r} hold a station that is not a number: write sc1094r8,sc1095@0.5") from None
+        raise ValueError(
+            f"airfoils {spec!r} hold a station that is not a number: write sc1094r8,sc1095@0.5"
+        ) from None
     changed = with_airfoils(rotor, [name.strip() for name in names.split(",")], breaks)
     for span in changed.blade.spans:
         changed.blade.installed(span.section)

@@ -62,36 +62,54 @@ class RotorFile:
     @property
     def named(self) -> list[str]:
         """The files that the sections name."""
-        return list(dict.fromkeys(file for section in self.sections.values() for file in section.named))
+        return list(
+            dict.fromkeys(file for section in self.sections.values() for file in section.named)
+        )
 
 
 def read_tables(file: str, text: str) -> RotorFile:
     """A rotor file without the files that it names. ValueError with one sentence that names file, line and remedy."""
     if len(text) > _LONGEST:
-        raise ValueError(f"{file} has {len(text):,} characters: a rotor file has {_LONGEST:,} at most")
+        raise ValueError(
+            f"{file} has {len(text):,} characters: a rotor file has {_LONGEST:,} at most"
+        )
     for number, line in enumerate(text.splitlines(), start=1):
         if len(line) > _LONGEST_LINE:
-            raise ValueError(f"{file}, line {number}: {len(line):,} characters: break lines of {_LONGEST_LINE:,}")
+            raise ValueError(
+                f"{file}, line {number}: {len(line):,} characters: break lines of {_LONGEST_LINE:,}"
+            )
         if any(part.count(".") > _MOST_DOTS for part in re.split("[,=]", line)):
-            raise ValueError(f"{file}, line {number}: a name has more than {_MOST_DOTS} dots: shorten it")
+            raise ValueError(
+                f"{file}, line {number}: a name has more than {_MOST_DOTS} dots: shorten it"
+            )
     values = read_toml(file, text)
     with naming(file, text):
         top = convert(values, TopTable)
         main = convert(top.main_rotor, MainRotorTable, *_MAIN)
-        rotor = RotorFile(top, main, _sections(top, [main, *([main.document] if main.document else [])]))
+        rotor = RotorFile(
+            top, main, _sections(top, [main, *([main.document] if main.document else [])])
+        )
         if len(rotor.named) > MOST_NAMED:
-            raise Refusal(f"the sections in use name {len(rotor.named)} files: {MOST_NAMED} are allowed", "sections")
+            raise Refusal(
+                f"the sections in use name {len(rotor.named)} files: {MOST_NAMED} are allowed",
+                "sections",
+            )
         return rotor
 
 
 def _sections(top: TopTable, blades: list[BladeTable]) -> dict[str, OwnSectionTable]:
     """The tables of `sections` that a span names."""
-    used = {blade.section for blade in blades} | {span.section for blade in blades for span in blade.spans or ()}
+    used = {blade.section for blade in blades} | {
+        span.section for blade in blades for span in blade.spans or ()
+    }
     for name in top.sections:
         check_section_name(name)
     names = [name for name in top.sections if name in used]
     if len(names) > MOST_SECTIONS:
-        raise Refusal(f"the blade uses {len(names)} sections of its own: {MOST_SECTIONS} are allowed", "sections")
+        raise Refusal(
+            f"the blade uses {len(names)} sections of its own: {MOST_SECTIONS} are allowed",
+            "sections",
+        )
     return {name: convert(top.sections[name], OwnSectionTable, "sections", name) for name in names}
 
 
@@ -105,7 +123,9 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
     used = {main: texts[main]}
     if spare := [name for name in top.sections if name not in file.sections]:
         more = f" and {len(spare) - 1} more" if len(spare) > 1 else ""
-        remarks.append(f"Section {shorten(spare[0])}{more} is left out: no span of the blade uses it.")
+        remarks.append(
+            f"Section {shorten(spare[0])}{more} is left out: no span of the blade uses it."
+        )
     with naming(main, texts[main]):
         sections = tuple[OwnSection, ...]()
         for name, table in file.sections.items():
@@ -120,7 +140,9 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
                 "does not depend on it."
             )
         if (rate := file.main.linear_twist_deg or 0.0) > 0.0:
-            remarks.append(f"The twist rises by {rate:g} deg a radius: for washout write linear_twist_deg = {-rate:g}.")
+            remarks.append(
+                f"The twist rises by {rate:g} deg a radius: for washout write linear_twist_deg = {-rate:g}."
+            )
         stated, document = None, file.main.document
         if document is not None:
             blade = _blade(file.main, document, (*_MAIN, "document"), sections)
@@ -128,14 +150,18 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
         controls = top.controls.range() if top.controls else None
         doubt = msgspec.structs.asdict(convert(top.doubt, DoubtTable, "doubt"))
         fuselage = (
-            Fuselage(airframe.drag_area_m2, airframe.hover_download, airframe.band()) if airframe else Fuselage(0.0)
+            Fuselage(airframe.drag_area_m2, airframe.hover_download, airframe.band())
+            if airframe
+            else Fuselage(0.0)
         )
     return Aircraft(
         name=top.name,
         rotor=rotor,
         fuselage=fuselage,
         mass=airframe.mass_kg if airframe else _carried(rotor),
-        installed_power=1e3 * airframe.installed_power_kw if airframe and airframe.installed_power_kw else None,
+        installed_power=1e3 * airframe.installed_power_kw
+        if airframe and airframe.installed_power_kw
+        else None,
         controls=controls,
         tail_rotor=top.tail_rotor.rotor() if top.tail_rotor else None,
         hub=file.main.hub,
@@ -150,11 +176,15 @@ def read_aircraft(main: str, texts: Mapping[str, str], key: str = "") -> Aircraf
 
 def _carried(rotor: Rotor) -> float:
     """Mass [kg] that a rotor carries at `ISOLATED_LOADING` and sea level."""
-    thrust = ISOLATED_LOADING * rotor.solidity * SEA_LEVEL_DENSITY * rotor.disk_area * rotor.tip_speed**2
+    thrust = (
+        ISOLATED_LOADING * rotor.solidity * SEA_LEVEL_DENSITY * rotor.disk_area * rotor.tip_speed**2
+    )
     return thrust / GRAVITY
 
 
-def _rotor(name: str, main: MainRotorTable, sections: tuple[OwnSection, ...], twist_name: str) -> Rotor:
+def _rotor(
+    name: str, main: MainRotorTable, sections: tuple[OwnSection, ...], twist_name: str
+) -> Rotor:
     hub, precone = main.hub, main.precone_deg
     blade = _blade(main, main, _MAIN, sections)
     sprung = main.flap_spring_nm_rad is not None
@@ -174,7 +204,9 @@ def _rotor(name: str, main: MainRotorTable, sections: tuple[OwnSection, ...], tw
     )
 
 
-def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[OwnSection, ...]) -> Blade:
+def _blade(
+    main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[OwnSection, ...]
+) -> Blade:
     radius, hinge, spring = main.radius_m, given.flap_hinge_m, given.flap_spring_nm_rad
     check_bounds(hinge, 0.0, 0.3 * radius, *at, "flap_hinge_m", given=f"radius_m = {radius:g}")
     sprung = main.hub in ("articulated", "hingeless")
@@ -187,7 +219,10 @@ def _blade(main: MainRotorTable, given: BladeTable, at: Place, sections: tuple[O
     structure = _structure(given, at, radius)
     if spring is None and main.hub == "hingeless" and structure is not None and structure.bends:
         says = f"[{'.'.join(map(str, at))}] has no flap_spring_nm_rad"
-        raise Refusal(f"{says}: a hingeless blade with bending stiffness also needs it, for use without bending", *at)
+        raise Refusal(
+            f"{says}: a hingeless blade with bending stiffness also needs it, for use without bending",
+            *at,
+        )
     stations = given.chord_r or (main.root_cutout_r, 1.0)
     mass, inertia, moment = given.masses(radius - hinge, radius)
     return Blade(
@@ -216,15 +251,22 @@ def _structure(given: BladeTable, at: Place, radius: float) -> BladeStructure | 
     if not isinstance(table, StructureTable):
         return uh60a_torsion(radius) if table else None
     clamp = given.flap_hinge_m if table.clamp is None else table.clamp
-    check_bounds(clamp, 0.0, 0.5 * radius, *at, "structure", "clamp_m", given=f"radius_m = {radius:g}")
+    check_bounds(
+        clamp, 0.0, 0.5 * radius, *at, "structure", "clamp_m", given=f"radius_m = {radius:g}"
+    )
     given_fields: dict[str, Any] = msgspec.structs.asdict(table) | {"clamp": clamp}
     return BladeStructure(radius=radius, **given_fields)
 
 
-def _spans(given: BladeTable, at: Place, root: float, sections: tuple[OwnSection, ...]) -> tuple[Span, ...]:
+def _spans(
+    given: BladeTable, at: Place, root: float, sections: tuple[OwnSection, ...]
+) -> tuple[Span, ...]:
     names = (*(each.name for each in sections), *TABLE_NAMES)
     spans = [((), Span(root, 1.0, given.section))] if given.section else []
-    spans += [(("spans", k), Span(each.start_r, each.end_r, each.section)) for k, each in enumerate(given.spans or ())]
+    spans += [
+        (("spans", k), Span(each.start_r, each.end_r, each.section))
+        for k, each in enumerate(given.spans or ())
+    ]
     for place, span in spans:
         if span.section not in names and not span.section.startswith(f"{THESIS_NAME}:"):
             raise Refusal(
@@ -254,7 +296,9 @@ def find_aircraft(name: str, *, allow_outside: bool = False) -> Aircraft:
 
     `allow_outside` as in `load_rotor`.
     """
-    if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS) or not ("." in name or "/" in name or is_file(name)):
+    if name in (*SHIPPED_ROTORS, *MEASURED_ROTORS) or not (
+        "." in name or "/" in name or is_file(name)
+    ):
         return shipped_aircraft(name)
     return load_rotor(name, allow_outside=allow_outside)
 

@@ -35,17 +35,25 @@ _TipSpeed = Annotated[float, Meta(ge=20.0, le=340.0)]
 _SPEEDS = ("speed_rpm", "tip_speed_m_s", "angular_speed_rad_s")
 
 
-def _check_stations(place: str, stations: tuple[float, ...], key: str, values: tuple[float, ...]) -> None:
+def _check_stations(
+    place: str, stations: tuple[float, ...], key: str, values: tuple[float, ...]
+) -> None:
     if len(stations) != len(values) or len(stations) < 2:
         raise Refusal(
-            f"{place} has {len(stations)} and {key} {len(values)} values: give one value per station, at least two", key
+            f"{place} has {len(stations)} and {key} {len(values)} values: give one value per station, at least two",
+            key,
         )
     for low, high in pairwise(stations):
         if low == high:
             step = sorted((low, low + (0.001 if low < 0.5 else -0.001)))
-            raise Refusal(f"{place} has {low:g} twice: for a step write {step[0]:g} and {step[1]:g}", place)
+            raise Refusal(
+                f"{place} has {low:g} twice: for a step write {step[0]:g} and {step[1]:g}", place
+            )
         if low > high:
-            raise Refusal(f"{place} goes from {low:g} to {high:g}: write the stations in ascending order", place)
+            raise Refusal(
+                f"{place} goes from {low:g} to {high:g}: write the stations in ascending order",
+                place,
+            )
 
 
 class SpanTable(FileTable, frozen=True, kw_only=True):
@@ -60,25 +68,44 @@ class StructureTable(FileTable, frozen=True, kw_only=True):
     stations: tuple[Annotated[float, Meta(ge=0.0, le=30.0)], ...] = field(name="r_m")
     torsional_stiffness: tuple[Annotated[float, Meta(ge=1e-3, le=1e9)], ...] = field(name="gj_nm2")
     mass_per_length: tuple[Annotated[float, Meta(ge=1e-3, le=1e4)], ...] = field(name="mass_kg_m")
-    torsional_inertia: tuple[Annotated[float, Meta(ge=1e-9, le=1e3)], ...] = field(name="torsional_inertia_kg_m")
+    torsional_inertia: tuple[Annotated[float, Meta(ge=1e-9, le=1e3)], ...] = field(
+        name="torsional_inertia_kg_m"
+    )
     flap_stiffness: tuple[_Stiffness, ...] = field(name="flap_stiffness_nm2", default=())
     lag_stiffness: tuple[_Stiffness, ...] = field(name="lag_stiffness_nm2", default=())
     tension_gyration: Share = field(name="tension_gyration_m2", default=0.0)
     clamp: Annotated[float, Meta(ge=0.0, le=15.0)] | None = field(name="clamp_m", default=None)
-    control_stiffness: Annotated[float, Meta(ge=1e-3, le=1e12)] = field(name="control_stiffness_nm_rad")
+    control_stiffness: Annotated[float, Meta(ge=1e-3, le=1e12)] = field(
+        name="control_stiffness_nm_rad"
+    )
     pitch_horn: Annotated[float, Meta(ge=1e-3, le=2.0)] = field(name="pitch_horn_m")
-    lag_damper: Annotated[float, Meta(ge=0.0, le=1e6)] = field(name="lag_damper_nm_s_rad", default=0.0)
-    lag_spring: Annotated[float, Meta(ge=0.0, le=1e8)] | None = field(name="lag_spring_nm_rad", default=None)
+    lag_damper: Annotated[float, Meta(ge=0.0, le=1e6)] = field(
+        name="lag_damper_nm_s_rad", default=0.0
+    )
+    lag_spring: Annotated[float, Meta(ge=0.0, le=1e8)] | None = field(
+        name="lag_spring_nm_rad", default=None
+    )
 
     def __post_init__(self) -> None:
         for column in fields(self):
             values: Any = getattr(self, column.name)
-            if isinstance(values, tuple) and column.name != "stations" and (column.required or values):
-                _check_stations("r_m", self.stations, column.encode_name, cast("tuple[float, ...]", values))
-        bending = {"flap_stiffness_nm2": self.flap_stiffness, "lag_stiffness_nm2": self.lag_stiffness}
+            if (
+                isinstance(values, tuple)
+                and column.name != "stations"
+                and (column.required or values)
+            ):
+                _check_stations(
+                    "r_m", self.stations, column.encode_name, cast("tuple[float, ...]", values)
+                )
+        bending = {
+            "flap_stiffness_nm2": self.flap_stiffness,
+            "lag_stiffness_nm2": self.lag_stiffness,
+        }
         given = [key for key, values in bending.items() if values]
         if len(given) == 1:
-            raise Refusal(f"{given[0]} is given alone: give {' and '.join(bending)}, or neither", given[0])
+            raise Refusal(
+                f"{given[0]} is given alone: give {' and '.join(bending)}, or neither", given[0]
+            )
 
 
 class BladeTable(FileTable, frozen=True, kw_only=True):
@@ -146,7 +173,10 @@ class BladeTable(FileTable, frozen=True, kw_only=True):
         mass = self.blade_mass_kg or (self.mass_per_length_kg_m or 0.0) * length
         if not self.weighed:
             chord = sum(self.chords) / len(self.chords)
-            inertia = self.flap_inertia_kg_m2 or SEA_LEVEL_DENSITY * LIFT_SLOPE * chord * radius**4 / LOCK_NUMBER
+            inertia = (
+                self.flap_inertia_kg_m2
+                or SEA_LEVEL_DENSITY * LIFT_SLOPE * chord * radius**4 / LOCK_NUMBER
+            )
             mass = 3.0 * inertia / length**2
         inertia = self.flap_inertia_kg_m2 or mass * length**2 / 3.0
         return mass, inertia, self.flap_static_moment_kg_m or mass * length / 2.0
@@ -154,7 +184,9 @@ class BladeTable(FileTable, frozen=True, kw_only=True):
     def twist(self, name: str) -> TwistLaw:
         if self.linear_twist_deg is not None:
             return LinearTwist(math.radians(self.linear_twist_deg))
-        return TableTwist(self.twist_r or (), tuple(map(math.radians, self.twist_deg or ())), name=name)
+        return TableTwist(
+            self.twist_r or (), tuple(map(math.radians, self.twist_deg or ())), name=name
+        )
 
 
 class MainRotorTable(BladeTable, frozen=True, kw_only=True):
@@ -236,7 +268,10 @@ class AirframeTable(FileTable, frozen=True, kw_only=True):
         if low is None and high is None:
             return None
         if low is None or high is None:
-            raise Refusal("only one of drag_area_low_m2 and drag_area_high_m2: give both, or neither", "airframe")
+            raise Refusal(
+                "only one of drag_area_low_m2 and drag_area_high_m2: give both, or neither",
+                "airframe",
+            )
         given = f"drag_area_low_m2 = {low:g} and drag_area_high_m2 = {high:g}"
         check_bounds(self.drag_area_m2, low, high, "airframe", "drag_area_m2", given=given)
         return low, high
@@ -255,7 +290,11 @@ class ControlsTable(FileTable, frozen=True, kw_only=True):
             low, high = getattr(self, key)
             if low >= high:
                 says = f"{key} is {[low, high]}"
-                raise Refusal(f"{says}: write both stops, the lower first, for example [-8.0, 8.0]", "controls", key)
+                raise Refusal(
+                    f"{says}: write both stops, the lower first, for example [-8.0, 8.0]",
+                    "controls",
+                    key,
+                )
             ends.append((math.radians(low), math.radians(high)))
         return ControlRange(*ends, phase=math.radians(self.phase_deg))
 
@@ -280,4 +319,6 @@ class TopTable(FileTable, frozen=True, kw_only=True):
         # A name appears in menus and tables.
         if not re.fullmatch(r"[\w .,'()+/-]{1,40}", self.name) or not self.name.strip():
             says = f"name is {self.name[:60]!r}"
-            raise Refusal(f"{says}: use 1 to 40 letters, digits, blanks and . , ' ( ) + / -", "name")
+            raise Refusal(
+                f"{says}: use 1 to 40 letters, digits, blanks and . , ' ( ) + / -", "name"
+            )

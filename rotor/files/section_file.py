@@ -10,8 +10,20 @@ import numpy as np
 from msgspec import Meta
 
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
-from rotor.airfoil.contour import SECTION_NAMES, is_naca, load_contour, parse_contour, thickness_and_camber
-from rotor.airfoil.decks import INCOMPRESSIBLE_MACH, NATIVE_MACH_LIMIT, USED_ALPHA_DEG, SectionTraits, assemble_deck
+from rotor.airfoil.contour import (
+    SECTION_NAMES,
+    is_naca,
+    load_contour,
+    parse_contour,
+    thickness_and_camber,
+)
+from rotor.airfoil.decks import (
+    INCOMPRESSIBLE_MACH,
+    NATIVE_MACH_LIMIT,
+    USED_ALPHA_DEG,
+    SectionTraits,
+    assemble_deck,
+)
 from rotor.airfoil.polars import Polar, PolarSet, parse_polars
 from rotor.airfoil.reynolds import by_reynolds, same_conditions
 from rotor.airfoil.section_table import SectionTable
@@ -53,7 +65,11 @@ class OwnSectionTable(FileTable, frozen=True, kw_only=True):
     @property
     def named(self) -> tuple[str, ...]:
         """Names of all files of the section."""
-        return self.data if self.outline is None or _is_known(self.outline) else (*self.data, self.outline)
+        return (
+            self.data
+            if self.outline is None or _is_known(self.outline)
+            else (*self.data, self.outline)
+        )
 
 
 def _is_known(outline: str) -> bool:
@@ -64,11 +80,17 @@ def check_section_name(name: str) -> None:
     """Refusal for a name that no section of a rotor file may have."""
     if not re.fullmatch(r"[a-z0-9][a-z0-9._-]{0,39}", name) or name in TABLE_NAMES:
         says = f"section name {name!r} is taken or has characters that are not allowed"
-        raise Refusal(f"{says}: use letters a-z, digits and -, such as my-section", "sections", name)
+        raise Refusal(
+            f"{says}: use letters a-z, digits and -, such as my-section", "sections", name
+        )
 
 
 def read_section(
-    table: OwnSectionTable, name: str, texts: Mapping[str, str], used: dict[str, str], remarks: list[str]
+    table: OwnSectionTable,
+    name: str,
+    texts: Mapping[str, str],
+    used: dict[str, str],
+    remarks: list[str],
 ) -> OwnSection:
     """The section `[sections.name]`; adds the texts it uses to `used` and to `remarks` what was read and is assumed.
 
@@ -94,7 +116,11 @@ def read_section(
         sets = [parse_polars(text, file) for file, text in zip(table.data, contents, strict=True)]
         decks, says = _decks_of(name, sets, thickness)
         deck = decks[len(decks) // 2][1]
-        assumed = [f"{file} {each}." for file, read in zip(table.data, sets, strict=True) for each in read.assumed]
+        assumed = [
+            f"{file} {each}."
+            for file, read in zip(table.data, sets, strict=True)
+            for each in read.assumed
+        ]
     remarks += [f"Section {name}: {says}; {shape}.", *assumed]
     section = OwnSection(
         name=name,
@@ -140,8 +166,16 @@ def _outline(
             f"{100.0 * THICKNESS[1]:g} %: correct its points, or give `thickness` beside `outline`"
         )
     if table.outline is None and not is_naca(name):
-        return outline, table.thickness or measured, "no outline, so it is drawn as a symmetric 12 % section"
-    return outline, table.thickness or measured, f"{shape}, {_percent(measured)} thick, {_percent(camber)} camber"
+        return (
+            outline,
+            table.thickness or measured,
+            "no outline, so it is drawn as a symmetric 12 % section",
+        )
+    return (
+        outline,
+        table.thickness or measured,
+        f"{shape}, {_percent(measured)} thick, {_percent(camber)} camber",
+    )
 
 
 def _percent(share: float) -> str:
@@ -176,7 +210,9 @@ def _off_its_knots(deck: C81Deck, table: SectionTable) -> str:
     )
 
 
-def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[tuple[float, str], ...], str]:
+def _decks_of(
+    name: str, sets: list[PolarSet], thickness: float
+) -> tuple[tuple[tuple[float, str], ...], str]:
     """C81 decks from polars by Reynolds number, one where no Mach number has polars of several, and what was read."""
     at = ("sections", name, "polars")
     polars = sorted((polar for each in sets for polar in each.polars), key=lambda polar: polar.mach)
@@ -184,15 +220,26 @@ def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[
         if same_conditions(one, other):
             says = f"two polars of {name} have Mach {one.mach:g}"
             if one.reynolds and other.reynolds:
-                raise Refusal(f"{says} and Reynolds number {one.reynolds:,.0f}: keep one of them", *at)
-            raise Refusal(f"{says} without Reynolds numbers: keep one, or add a column reynolds", *at)
+                raise Refusal(
+                    f"{says} and Reynolds number {one.reynolds:,.0f}: keep one of them", *at
+                )
+            raise Refusal(
+                f"{says} without Reynolds numbers: keep one, or add a column reynolds", *at
+            )
     for polar in polars:
         _check_range(name, polar, at)
     machs = list(dict.fromkeys(polar.mach for polar in polars))
     low = max(polar.alpha_deg[0] for polar in polars)
     high = min(polar.alpha_deg[-1] for polar in polars)
-    listed = ", ".join(f"{mach:g} (Re {_millions([p.reynolds for p in polars if p.mach == mach])})" for mach in machs)
-    above = ", above them Prandtl–Glauert lift, a lift limit and Korn's wave drag" if machs[-1] < 0.99 else ""
+    listed = ", ".join(
+        f"{mach:g} (Re {_millions([p.reynolds for p in polars if p.mach == mach])})"
+        for mach in machs
+    )
+    above = (
+        ", above them Prandtl–Glauert lift, a lift limit and Korn's wave drag"
+        if machs[-1] < 0.99
+        else ""
+    )
     says = f"polars at Mach {listed} over {_range(low, high)}°{above}, a closed form beyond stall"
     families = by_reynolds(polars)
     if len(families) > MOST_REYNOLDS:
@@ -203,10 +250,14 @@ def _decks_of(name: str, sets: list[PolarSet], thickness: float) -> tuple[tuple[
     elif machs[0] <= INCOMPRESSIBLE_MACH and len(machs) == 1:
         says += "; its polar is incompressible, so friction keeps its Reynolds number at every Mach"
     if machs[-1] > NATIVE_MACH_LIMIT + 1e-9:
-        says += f"; used as given above Mach {NATIVE_MACH_LIMIT:g}, where XFOIL does not model shocks"
+        says += (
+            f"; used as given above Mach {NATIVE_MACH_LIMIT:g}, where XFOIL does not model shocks"
+        )
     correct = SectionTraits(thickness=thickness, fixed_reynolds=len(families) > 1).correct
     title = name.upper()[:30]
-    return tuple((number, format_c81(assemble_deck(title, family, correct))) for number, family in families), says
+    return tuple(
+        (number, format_c81(assemble_deck(title, family, correct))) for number, family in families
+    ), says
 
 
 def _millions(reynolds: list[float | None]) -> str:
@@ -219,7 +270,9 @@ def _check_range(name: str, polar: Polar, at: Place) -> None:
     alpha, says = polar.alpha_deg, f"the polar of {name} at Mach {polar.mach:g}"
     low, high = _LEAST_ALPHA_DEG
     if alpha[0] > low or alpha[-1] < high:
-        raise Refusal(f"{says} covers {_range(alpha[0], alpha[-1])} deg: give at least −4…8 deg", *at)
+        raise Refusal(
+            f"{says} covers {_range(alpha[0], alpha[-1])} deg: give at least −4…8 deg", *at
+        )
     used = alpha[np.abs(alpha) <= USED_ALPHA_DEG]
     for before, after in pairwise(used):
         if after - before > _WIDEST_HOLE_DEG + 1e-9:
@@ -232,6 +285,8 @@ def _file(at: Place, name: str, texts: Mapping[str, str], used: dict[str, str]) 
     if name not in texts:
         slashes = "write / in paths, " if re.search(r"[\\\x00-\x1f]", name) else ""
         says = f"{at[-1]} names {name!r}, which is missing"
-        raise Refusal(f"{says}: {slashes}put it beside the rotor file, or load it on the page too", *at)
+        raise Refusal(
+            f"{says}: {slashes}put it beside the rotor file, or load it on the page too", *at
+        )
     used[name] = texts[name]
     return texts[name]

@@ -121,12 +121,16 @@ class Concept:
     @property
     def inputs(self) -> tuple[str, ...]:
         """Names of the page's inputs, by parameter."""
-        return tuple(parameter.input or f"{self.page}_{parameter.name}" for parameter in self.parameters)
+        return tuple(
+            parameter.input or f"{self.page}_{parameter.name}" for parameter in self.parameters
+        )
 
     @property
     def breaks(self) -> tuple[str, ...]:
         """Names of the page's inputs that are break points r/R."""
-        return tuple(name for name, one in zip(self.inputs, self.parameters, strict=True) if not one.angular)
+        return tuple(
+            name for name, one in zip(self.inputs, self.parameters, strict=True) if not one.angular
+        )
 
     def twist(self, values: Values) -> TwistLaw:
         """The twist law with these values of the free parameters."""
@@ -149,7 +153,9 @@ class Concept:
             places = tuple(self._all(values)[len(self.airfoils) :])
             # SC1095 from the data that the design uses: the document's polynomials or the decks.
             sections = {span.section.partition("-")[0]: span.section for span in rotor.blade.spans}
-            rotor = with_airfoils(rotor, [sections.get(name, name) for name in self.airfoils], places)
+            rotor = with_airfoils(
+                rotor, [sections.get(name, name) for name in self.airfoils], places
+            )
         return replace(design, twist=self.twist(values), rotor=rotor)
 
     @property
@@ -184,7 +190,8 @@ def nearest(concept: Concept, law: TwistLaw) -> tuple[float, ...]:
     middle = np.full(len(span), 0.5)
     step = np.linalg.lstsq(slope(middle), -gap(middle))[0]
     inside = np.asarray(middle + np.clip(step, -0.5, 0.5), dtype=np.float64)
-    if np.abs(slope(inside).T @ gap(inside)).max() < 1e-12:  # A law that is linear in its values, within the bounds.
+    # A law that is linear in its values, within the bounds.
+    if np.abs(slope(inside).T @ gap(inside)).max() < 1e-12:
         return tuple((low + span * inside).tolist())
     fit = scipy.optimize.least_squares(gap, middle, jac=slope, bounds=(0.0, 1.0), xtol=1e-12)
     return tuple((low + span * np.clip(fit.x, 0.0, 1.0)).tolist())
@@ -205,7 +212,9 @@ def restrict(concept: Concept, fixed: Mapping[str, float]) -> Concept:
         low, high = known[key].low, known[key].high
         if not low <= value <= high:
             value, low, high = map(known[key].shown, (value, low, high))
-            raise ValueError(f"{key} {value:g} of concept {name} is outside {low:g}…{high:g}: choose a value inside")
+            raise ValueError(
+                f"{key} {value:g} of concept {name} is outside {low:g}…{high:g}: choose a value inside"
+            )
     if len(fixed) >= len(known):
         raise ValueError(f"concept {name} has no free parameter left: leave at least one free")
     return replace(concept, fixed=(*concept.fixed, *fixed.items()), page="")

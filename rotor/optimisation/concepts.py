@@ -23,7 +23,17 @@ from rotor.design.twist import (
 from rotor.optimisation.concept import Concept, Handle, Parameter, Values, nearest, on_top, restrict
 from rotor.support.user_input import check_known
 
-__all__ = ("CONCEPTS", "Concept", "Handle", "Parameter", "Values", "find_concept", "nearest", "on_top", "restrict")
+__all__ = (
+    "CONCEPTS",
+    "Concept",
+    "Handle",
+    "Parameter",
+    "Values",
+    "find_concept",
+    "nearest",
+    "on_top",
+    "restrict",
+)
 STEEPEST, FLATTEST = math.radians(-30.0), math.radians(10.0)
 """Default bounds of a twist rate [rad/R]: beyond them blades stall at the root or carry negative lift at the tip."""
 
@@ -35,23 +45,41 @@ _BREAK = "Break point: radius where two twist segments meet, as a fraction of R.
 def _rate(word: str, tilt: Handle, rates: tuple[float, ...], start: float, name: str) -> Parameter:
     title = word.capitalize()
     return Parameter(
-        f"{word}_rate", f"{title} rate", "rad/R", STEEPEST, FLATTEST, tilt, rates, start, _RATE, title, name
+        f"{word}_rate",
+        f"{title} rate",
+        "rad/R",
+        STEEPEST,
+        FLATTEST,
+        tilt,
+        rates,
+        start,
+        _RATE,
+        title,
+        name,
     )
 
 
-def _break(name: str, title: str, ends: tuple[float, float], pieces: int, start: float, short: str) -> Parameter:
-    return Parameter(name, title, "R", *ends, Handle("slide", *ends), (0.0,) * pieces, start, _BREAK, short)
+def _break(
+    name: str, title: str, ends: tuple[float, float], pieces: int, start: float, short: str
+) -> Parameter:
+    return Parameter(
+        name, title, "R", *ends, Handle("slide", *ends), (0.0,) * pieces, start, _BREAK, short
+    )
 
 
 def _free_form() -> Iterator[Parameter]:
     """Angles at stations. The spline rounds off kinks, so a law of straight segments may be slightly better."""
     steps = (0.0, *np.diff(SEARCHED_STATIONS).tolist(), 0.0)
     between = (0.5 * (inner + outer) for inner, outer in pairwise(SEARCHED_STATIONS))
-    rates = spline_basis(SEARCHED_STATIONS, sorted((*SEARCHED_STATIONS, *between)), derivative=1).T.tolist()
+    rates = spline_basis(
+        SEARCHED_STATIONS, sorted((*SEARCHED_STATIONS, *between)), derivative=1
+    ).T.tolist()
     for k, at in enumerate(SEARCHED_STATIONS):
         low, high = sorted(math.radians(rate) * (at - REFERENCE_RADIUS) for rate in (-40.0, 30.0))
         handle = Handle("lift", at, max(steps[k : k + 2]))
-        yield Parameter(_angle_at(at), f"Twist at {at:.2f} R", "rad", low, high, handle, tuple(rates[k]))
+        yield Parameter(
+            _angle_at(at), f"Twist at {at:.2f} R", "rad", low, high, handle, tuple(rates[k])
+        )
 
 
 def _angle_at(station: float) -> str:
@@ -105,9 +133,14 @@ def _two_segment(division: float) -> Concept:
 
 def _three_segment(inner: float, outer: float) -> Concept:
     if not 0.15 <= inner < outer <= 0.97:
-        raise ValueError(f"divisions {inner:g}, {outer:g} must ascend between 0.15 and 0.97 R: reorder or move them")
+        raise ValueError(
+            f"divisions {inner:g}, {outer:g} must ascend between 0.15 and 0.97 R: reorder or move them"
+        )
     words = f"Three straight segments that meet at {inner:.3g} and {outer:.3g} R, where the airfoils change."
-    anywhere = tuple(one if one.angular else replace(one, low=0.15, high=0.97) for one in THREE_SEGMENT_FREE.every)
+    anywhere = tuple(
+        one if one.angular else replace(one, low=0.15, high=0.97)
+        for one in THREE_SEGMENT_FREE.every
+    )
     free = Concept("three-segment", "Three segments", words, PiecewiseLinearTwist, anywhere)
     return restrict(free, {"inner_break": inner, "outer_break": outer})
 

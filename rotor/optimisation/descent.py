@@ -47,7 +47,9 @@ def second_derivatives(steps: Array, changes: Array, weights: Array, elsewhere: 
     length = np.asarray(np.linalg.norm(steps, axis=1))
     scale = (np.sqrt(weights) / length)[:, None]
     s, y = scale * steps, scale * changes
-    curvature = max(float(np.vdot(s, y) / np.vdot(s, s)), 0.0) if len(steps) and elsewhere else elsewhere
+    curvature = (
+        max(float(np.vdot(s, y) / np.vdot(s, s)), 0.0) if len(steps) and elsewhere else elsewhere
+    )
     size, axes = np.linalg.eigh(s.T @ s + _PRIOR_WEIGHT * np.eye(steps.shape[1]))
     right = y.T @ s + s.T @ y + 2.0 * _PRIOR_WEIGHT * curvature * np.eye(len(size))
     return axes @ (axes.T @ right @ axes / (size[:, None] + size)) @ axes.T
@@ -88,12 +90,15 @@ _MODEL_TOLERANCE = 1e-6
 class LocalModel:
     """The objective and what limits hold as quadratics around one trim, limits and bounds as they are."""
 
-    def __init__(self, evaluate: Evaluator, centre: TrimmedBlade, others: Sequence[TrimmedBlade]) -> None:
+    def __init__(
+        self, evaluate: Evaluator, centre: TrimmedBlade, others: Sequence[TrimmedBlade]
+    ) -> None:
         """others: trims that the second derivatives are made of; those of other rotors are left out."""
         self.evaluate = evaluate
         measured = centre.measured
         value, by_pitch = _known(measured)
-        metric = evaluate.r * math.sqrt(1.0 / len(evaluate.r))  # Lift follows the square of the radius.
+        # Lift follows the square of the radius.
+        metric = evaluate.r * math.sqrt(1.0 / len(evaluate.r))
         pairs = [
             (other.measured, step, length)
             for other in others
@@ -102,14 +107,19 @@ class LocalModel:
             if (length := float(np.linalg.norm(step))) > _SAME_BLADE_RAD
         ]
         steps = np.array([step for _, step, _ in pairs]).reshape(-1, len(metric))
-        weights = 1.0 / (1.0 + (np.array([length for _, _, length in pairs]) / _FULL_WEIGHT_RAD) ** 2) ** 2
+        weights = (
+            1.0
+            / (1.0 + (np.array([length for _, _, length in pairs]) / _FULL_WEIGHT_RAD) ** 2) ** 2
+        )
 
         def fit(slope: Array, slopes: Sequence[Array], elsewhere: float) -> Array:
             changes = np.array([(other - slope) / metric for other in slopes]).reshape(steps.shape)
             return second_derivatives(steps, changes, weights, elsewhere)
 
         first = _FIRST_CURVATURE * value
-        size, axes = np.linalg.eigh(fit(by_pitch, [_known(other)[1] for other, _, _ in pairs], first))
+        size, axes = np.linalg.eigh(
+            fit(by_pitch, [_known(other)[1] for other, _, _ in pairs], first)
+        )
         size = np.maximum(size, _LEAST_CURVATURE * max(size[-1], first))
         self.objective = QuadraticMeasure(
             centre.pitch, value, by_pitch, metric[:, None] * (axes * size) @ axes.T * metric
@@ -117,9 +127,15 @@ class LocalModel:
         self.limited: list[QuadraticMeasure] = []
         if measured.limited_by_pitch is not None:
             for k, slope in enumerate(measured.limited_by_pitch):
-                slopes = [other.limited_by_pitch[k] for other, _, _ in pairs if other.limited_by_pitch is not None]
+                slopes = [
+                    other.limited_by_pitch[k]
+                    for other, _, _ in pairs
+                    if other.limited_by_pitch is not None
+                ]
                 second = metric[:, None] * fit(slope, slopes, 0.0) * metric
-                self.limited.append(QuadraticMeasure(centre.pitch, measured.limited[k], slope, second))
+                self.limited.append(
+                    QuadraticMeasure(centre.pitch, measured.limited[k], slope, second)
+                )
 
     def cost(self, x: Array) -> float:
         """The objective at x [W or %]."""
@@ -134,7 +150,8 @@ class LocalModel:
         """Columns are steps of x that raise the objective by BAND from a minimum, (parameters, parameters)."""
         by = self.evaluate.pitch_slopes(x)
         size, axes = np.linalg.eigh(by @ self.objective.second @ by.T)
-        flat = 1e-9 * BAND * self.objective.value  # Where no parameter acts, as a break point between equal rates.
+        # Where no parameter acts, as a break point between equal rates.
+        flat = 1e-9 * BAND * self.objective.value
         size = np.maximum(size, max(_LEAST_CURVATURE * size[-1], flat))
         return axes * np.sqrt(2.0 * BAND * self.objective.value / size)
 
@@ -170,10 +187,18 @@ class LocalModel:
             return np.array([(edge - cost) / scale]), -slope[None] / scale
 
         start = np.clip(x + stretch @ along / size, 0.0, 1.0)
-        return self._descend(x, 1.0, stretch, start, lambda x: (-float(direction @ x), -direction), (room,))
+        return self._descend(
+            x, 1.0, stretch, start, lambda x: (-float(direction @ x), -direction), (room,)
+        )
 
     def _descend(
-        self, centre: Array, reach: float, stretch: Array, start: Array, value: _Measure, more: Sequence[_Measure]
+        self,
+        centre: Array,
+        reach: float,
+        stretch: Array,
+        start: Array,
+        value: _Measure,
+        more: Sequence[_Measure],
     ) -> Array:
         """SLSQP in coordinates in which the objective is round, within `reach` of a centre."""
         low, high = np.maximum(centre - reach, 0.0), np.minimum(centre + reach, 1.0)
@@ -251,14 +276,18 @@ def descend(evaluate: Evaluator, first: Evaluation, known: Callable[[Array], boo
         elif share > 0.5:
             reach = max(reach, 2.0 * length)
         centre = min(centre, trial, key=lambda point: point.rank)
-    return Descent(centre if centre.feasible else None, converged=centre.feasible and reach < _LEAST_REACH)
+    return Descent(
+        centre if centre.feasible else None, converged=centre.feasible and reach < _LEAST_REACH
+    )
 
 
 _TOGETHER, _RECENT = 8, 60
 """Rounds of `descend_together`, and how many of the last trims its models are made of."""
 
 
-def descend_together(searches: Sequence[Evaluator], starts: Sequence[Array], tolerance: float) -> list[Evaluation]:
+def descend_together(
+    searches: Sequence[Evaluator], starts: Sequence[Array], tolerance: float
+) -> list[Evaluation]:
     """Where each search, of one objective and one history, is least near its start; each round is trimmed at once.
 
     A descent ends where the model foresees no fall by `tolerance`, a part of the objective, or nothing trims.
@@ -266,16 +295,24 @@ def descend_together(searches: Sequence[Evaluator], starts: Sequence[Array], tol
     at, reach = dict(enumerate(starts)), [_FIRST_REACH] * len(searches)
     ends: dict[int, Evaluation] = {}
     for _ in range(_TOGETHER):
-        designs = [searches[k].concept.apply(searches[k].design, searches[k].values(x)) for k, x in at.items()]
+        designs = [
+            searches[k].concept.apply(searches[k].design, searches[k].values(x))
+            for k, x in at.items()
+        ]
         begin = [searches[k].starts_for(design) for k, design in zip(at, designs, strict=True)]
         moves, options = len(starts[0]) > 0, SolverOptions(remedy=False)
-        every = evaluate_objectives(searches[0].objective, designs, begin, gradient=moves, options=options)
+        every = evaluate_objectives(
+            searches[0].objective, designs, begin, gradient=moves, options=options
+        )
         for k, design, found in zip(at, designs, every, strict=True):
             searches[k].trimmed.add(design.rotor, design.twist(searches[k].r), found)
         further: dict[int, Array] = {}
         for k, x in at.items():
             trial = searches[k](x)
-            before, ends[k] = ends.get(k), min(ends.get(k, trial), trial, key=lambda point: point.rank)
+            before, ends[k] = (
+                ends.get(k),
+                min(ends.get(k, trial), trial, key=lambda point: point.rank),
+            )
             centre = ends[k]
             if centre is before:
                 reach[k] *= 0.3
@@ -317,7 +354,9 @@ def _side(evaluate: Evaluator, best: Evaluation, edge: float, k: int, side: floa
         if record.power is None:
             break
         centre, before = record, x
-        x = LocalModel(evaluate, centre.blade, evaluate.trimmed.all).farthest(centre.x, k, side, edge)
+        x = LocalModel(evaluate, centre.blade, evaluate.trimmed.all).farthest(
+            centre.x, k, side, edge
+        )
         if abs(x[k] - before[k]) <= _BAND_TOLERANCE * abs(before[k] - best.x[k]) + 1e-6:
             break
     inside = [record.x for record in evaluate.records if record.feasible and record.cost <= edge]

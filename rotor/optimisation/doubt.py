@@ -17,7 +17,12 @@ from rotor.design.design import Design
 from rotor.design.uncertain import uncertain_inputs
 from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.objective import Objective, ObjectiveValue, evaluate_objective, evaluate_objectives
+from rotor.optimisation.objective import (
+    Objective,
+    ObjectiveValue,
+    evaluate_objective,
+    evaluate_objectives,
+)
 from rotor.optimisation.results import ParameterBand
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis, analysed
@@ -39,12 +44,17 @@ def _cold(design: Design) -> Sequence[Solution]:
     return ()
 
 
-def saving_doubt(objective: Objective, best: Design, baseline: Design, starts: Starts = _cold) -> Doubt | None:
+def saving_doubt(
+    objective: Objective, best: Design, baseline: Design, starts: Starts = _cold
+) -> Doubt | None:
     """The uncertainty of a mean power and of its difference from that of the baseline.
 
     None where one does not trim.
     """
-    here, there = (evaluate_objective(objective, one, starts(one), gradient=False).trims for one in (best, baseline))
+    here, there = (
+        evaluate_objective(objective, one, starts(one), gradient=False).trims
+        for one in (best, baseline)
+    )
     return difference_doubt(objective.shares, here, there, induced=objective.quantity == "induced")
 
 
@@ -58,7 +68,9 @@ def difference_doubt(
     """The uncertainty of a mean power over conditions, or of induced power alone, and of its difference from other
     trims; None where one is missing."""
     ours, theirs = ([analysed(trim) for trim in trims] for trims in (here, there))
-    if min(len(here), len(there)) < len(shares) or not all(trim.solution.converged for trim in (*ours, *theirs)):
+    if min(len(here), len(there)) < len(shares) or not all(
+        trim.solution.converged for trim in (*ours, *theirs)
+    ):
         return None
     return mean_doubt(shares, ours, theirs, induced=induced)
 
@@ -107,11 +119,16 @@ def best_twist_doubt(
     flies = not all(solution.design.hovering for solution in found[0].solutions)
     there = None
     if flies:
-        there = _gradients(concept, places, steps, evaluate_objectives(objective, others, [()] * len(others)))
+        there = _gradients(
+            concept, places, steps, evaluate_objectives(objective, others, [()] * len(others))
+        )
     below = above = np.square(shifts).sum(axis=1)
     if there is not None:
         aside = _solved(_slopes(there, steps), -there.mean(axis=0))
-        below, above = below + np.square(np.minimum(aside, 0.0)), above + np.square(np.maximum(aside, 0.0))
+        below, above = (
+            below + np.square(np.minimum(aside, 0.0)),
+            above + np.square(np.maximum(aside, 0.0)),
+        )
         shifts = np.column_stack((shifts, aside))
         names.append(f"inflow {others[0].models.inflow}")
         words[names[-1]] = names[-1]
@@ -120,7 +137,9 @@ def best_twist_doubt(
             parameter.name,
             float(max(centre - math.sqrt(down), least)),
             float(min(centre + math.sqrt(up), most)),
-            tuple((words[names[k]], float(shift[k])) for k in np.argsort(-np.abs(shift))[:MOST_INPUTS]),
+            tuple(
+                (words[names[k]], float(shift[k])) for k in np.argsort(-np.abs(shift))[:MOST_INPUTS]
+            ),
         )
         for parameter, centre, shift, down, up, least, most in zip(
             concept.parameters, x, shifts, below, above, low, high, strict=True
@@ -135,7 +154,10 @@ def _slopes(values: Array, steps: Array) -> Array:
 
 
 def _gradients(
-    concept: Concept, places: Sequence[tuple[float, ...]], steps: Array, found: Sequence[ObjectiveValue]
+    concept: Concept,
+    places: Sequence[tuple[float, ...]],
+    steps: Array,
+    found: Sequence[ObjectiveValue],
 ) -> Array | None:
     """∇P at every place, (places, parameters); None unless P has a minimum nearby."""
     rows = [

@@ -13,7 +13,12 @@ from rotor.design.blade import Rotor
 from rotor.design.design import Design
 from rotor.optimisation.concept import Concept
 from rotor.optimisation.limits import Limits, cheap_margins
-from rotor.optimisation.objective import Objective, ObjectiveValue, evaluate_objective, evaluate_objectives
+from rotor.optimisation.objective import (
+    Objective,
+    ObjectiveValue,
+    evaluate_objective,
+    evaluate_objectives,
+)
 from rotor.optimisation.results import Phase, Progress
 from rotor.support.arrays import Array
 from rotor.trim.newton import SolverOptions
@@ -43,16 +48,29 @@ class TrimHistory:
         self.all: list[TrimmedBlade] = []
         self._lost: list[TrimmedBlade] = []
         """What did not trim."""
-        self._solved: deque[tuple[TrimmedBlade, tuple[Solution, ...]]] = deque(maxlen=_KEPT_SOLUTIONS)
+        self._solved: deque[tuple[TrimmedBlade, tuple[Solution, ...]]] = deque(
+            maxlen=_KEPT_SOLUTIONS
+        )
 
     def known(self, rotor: Rotor, pitch: Array) -> TrimmedBlade | None:
         """The trim of exactly this blade, or None."""
         every = (*self.all, *self._lost)
-        return next((point for point in every if np.array_equal(point.pitch, pitch) and point.rotor == rotor), None)
+        return next(
+            (
+                point
+                for point in every
+                if np.array_equal(point.pitch, pitch) and point.rotor == rotor
+            ),
+            None,
+        )
 
     def starts(self, pitch: Array, r: Array) -> tuple[Solution, ...]:
         """The trims of the nearest blade."""
-        gap = min(self._solved, key=lambda pair: float(((r * (pair[0].pitch - pitch)) ** 2).sum()), default=None)
+        gap = min(
+            self._solved,
+            key=lambda pair: float(((r * (pair[0].pitch - pitch)) ** 2).sum()),
+            default=None,
+        )
         return () if gap is None else gap[1]
 
     def add(self, rotor: Rotor, pitch: Array, measured: ObjectiveValue) -> TrimmedBlade:
@@ -158,7 +176,9 @@ class Evaluator:
 
     def cheap_margins(self, x: Array) -> tuple[Array, Array]:
         """Margins of the limits that need no trim, and slopes by x, (limits, parameters)."""
-        margins, slopes = cheap_margins(self.limits, self.concept, self.values(x), self.design.rotor.blade.root_cutout)
+        margins, slopes = cheap_margins(
+            self.limits, self.concept, self.values(x), self.design.rotor.blade.root_cutout
+        )
         return margins, slopes * self.span
 
     def baseline(self) -> ObjectiveValue:
@@ -195,16 +215,27 @@ class Evaluator:
             self._ahead = [blade for blade in self._ahead if blade is not known]
             return known
         starts, options = self.trimmed.starts(pitch, self.r), SolverOptions(remedy=remedy)
-        measured = evaluate_objective(self.objective, design, starts, limits=self.limits, options=options)
+        measured = evaluate_objective(
+            self.objective, design, starts, limits=self.limits, options=options
+        )
         return self.trimmed.add(design.rotor, pitch, measured)
 
     def trim_ahead(self, points: Iterable[Array]) -> None:
         """Trim the blades of some points at once, for when they are asked for; SearchStopped as in `__call__`."""
         self._check()
         every = [self.concept.apply(self.design, self.values(x)) for x in points]
-        designs = [design for design in every if self.trimmed.known(design.rotor, design.twist(self.r)) is None]
-        starts, options = [self.starts_for(each) for each in designs], SolverOptions(stop=self._stop, remedy=False)
-        found = evaluate_objectives(self.objective, designs, starts, limits=self.limits, options=options)
+        designs = [
+            design
+            for design in every
+            if self.trimmed.known(design.rotor, design.twist(self.r)) is None
+        ]
+        starts, options = (
+            [self.starts_for(each) for each in designs],
+            SolverOptions(stop=self._stop, remedy=False),
+        )
+        found = evaluate_objectives(
+            self.objective, designs, starts, limits=self.limits, options=options
+        )
         self._check()
         for design, measured in zip(designs, found, strict=True):
             self._ahead.append(self.trimmed.add(design.rotor, design.twist(self.r), measured))

@@ -78,13 +78,20 @@ class Limits:
     """`index`."""
 
     def __post_init__(
-        self, rate_deg: tuple[float, float] | None, stalled_percent: float | None, index_percent: float | None
+        self,
+        rate_deg: tuple[float, float] | None,
+        stalled_percent: float | None,
+        index_percent: float | None,
     ) -> None:
         given: dict[str, Any] = {}
         if rate_deg is not None:
             if isinstance(rate_deg, int | float | str) or len(rate_deg) != 2:
-                raise TypeError(f"rate_deg is {rate_deg!r}: give the steepest and the flattest, for example (-20, 0)")
-            given["rate"] = tuple(math.radians(number("rate_deg", end, "(-20, 0)")) for end in rate_deg)
+                raise TypeError(
+                    f"rate_deg is {rate_deg!r}: give the steepest and the flattest, for example (-20, 0)"
+                )
+            given["rate"] = tuple(
+                math.radians(number("rate_deg", end, "(-20, 0)")) for end in rate_deg
+            )
         if stalled_percent is not None:
             given["stalled"] = PERCENT * number("stalled_percent", stalled_percent, "2")
         if index_percent is not None:
@@ -95,19 +102,31 @@ class Limits:
             raise ValueError(f"change limit {self.change_deg:g}° is negative: give 0 or more")
         if self.rate is not None and not self.rate[0] < self.rate[1]:
             low, high = (math.degrees(value) for value in self.rate)
-            raise ValueError(f"rate limits {low:g}…{high:g}°/R allow no rate: give the steepest first, e.g. -20,0")
+            raise ValueError(
+                f"rate limits {low:g}…{high:g}°/R allow no rate: give the steepest first, e.g. -20,0"
+            )
         if self.stalled is not None and not 0.0 <= self.stalled <= 1.0:
-            raise ValueError(f"stalled-area limit {100 * self.stalled:g} % is outside 0…100 %: choose a value inside")
+            raise ValueError(
+                f"stalled-area limit {100 * self.stalled:g} % is outside 0…100 %: choose a value inside"
+            )
         if self.index is not None and not 0.0 < self.index < math.inf:
-            raise ValueError(f"limit {self.index:g} % of the vibration index is not positive: give more than 0")
+            raise ValueError(
+                f"limit {self.index:g} % of the vibration index is not positive: give more than 0"
+            )
 
     def about(self, twist: TwistLaw, root: float) -> "Limits":
         """These limits with `change_deg` counted from this twist, for a blade that begins at `root` (r/R)."""
         if self.change_deg is None:
             return self
         if self.change is not None:
-            raise ValueError("change and change_deg both limit the change of twist: give one of them")
-        return replace(self, change=even_change_limit(twist, math.radians(self.change_deg), root), change_deg=None)
+            raise ValueError(
+                "change and change_deg both limit the change of twist: give one of them"
+            )
+        return replace(
+            self,
+            change=even_change_limit(twist, math.radians(self.change_deg), root),
+            change_deg=None,
+        )
 
     def largest(self, conditions: int) -> Array:
         """Largest value of each quantity in `ObjectiveValue.limited` [%]."""
@@ -122,7 +141,9 @@ class Limits:
         bounds = {name: (parameter.low, parameter.high) for name, parameter in known.items()}
         for name, low, high in self.bounds:
             if name not in known:
-                raise ValueError(f"concept {concept.name} has no parameter {name!r}: it has {', '.join(known)}")
+                raise ValueError(
+                    f"concept {concept.name} has no parameter {name!r}: it has {', '.join(known)}"
+                )
             if not low < high:
                 parameter: Parameter = known[name]
                 raise ValueError(
@@ -133,7 +154,9 @@ class Limits:
         return tuple(bounds.values())
 
 
-def cheap_margins(limits: Limits, concept: Concept, values: Values, root: float) -> tuple[Array, Array]:
+def cheap_margins(
+    limits: Limits, concept: Concept, values: Values, root: float
+) -> tuple[Array, Array]:
     """Margins of rate and change limits [°], positive inside, (margins,), and gradients (margins, parameters)."""
     n = len(concept.parameters)
     margins: list[Array] = [np.zeros(0)]
@@ -182,15 +205,20 @@ def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
     slope = ring * window * by_margin
     weights = ElementSlopes(
         theta=slope * by_alpha,
-        u_t=slope * (by_alpha * over_p + by_mach * scale * normal * cos) + ring * window_slope * counted,
+        u_t=slope * (by_alpha * over_p + by_mach * scale * normal * cos)
+        + ring * window_slope * counted,
         u_p=slope * (-by_alpha * over_t + by_mach * scale * elements.u_p),
         u_r=slope * by_mach * scale * -normal * sin,
     )
     if problem.unsteady:
         e = elements
-        ahead = slopes_ahead(np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate)), problem.half_chord)
+        ahead = slopes_ahead(
+            np.stack((e.theta, e.u_t, e.u_p, e.u_r, e.loss, e.rate)), problem.half_chord
+        )
         turned = slope * by_alpha * ahead
-        weights = replace(weights, u_t=weights.u_t + turned[0], u_p=weights.u_p + turned[1], rate=turned[2])
+        weights = replace(
+            weights, u_t=weights.u_t + turned[0], u_p=weights.u_p + turned[1], rate=turned[2]
+        )
     return float((ring * window * counted).sum()), adjoint.by_pitch(weights)
 
 

@@ -43,7 +43,9 @@ class WeightedCondition:
 
     def __post_init__(self) -> None:
         if not (math.isfinite(self.hours) and self.hours > 0.0):
-            raise ValueError(f"{self.hours:g} hours at advance ratio {self.flight.advance_ratio:g}: give more than 0")
+            raise ValueError(
+                f"{self.hours:g} hours at advance ratio {self.flight.advance_ratio:g}: give more than 0"
+            )
 
 
 @dataclass(frozen=True)
@@ -71,7 +73,9 @@ def at_condition(design: Design, quantity: Quantity = "total") -> Objective:
     Raises ValueError for the total power of a free rotor, which is zero.
     """
     if design.models.trim == "free-rotor" and quantity == "total":
-        raise ValueError("a free rotor takes no power from its shaft: use the objective induced, or trim wind-tunnel")
+        raise ValueError(
+            "a free rotor takes no power from its shaft: use the objective induced, or trim wind-tunnel"
+        )
     return Objective(quantity, (WeightedCondition(design.condition),))
 
 
@@ -85,15 +89,21 @@ def over_conditions(
     at_condition(design, quantity)
     example = "conditions=[(0.0, 1), (0.3, 2)]"
     if isinstance(conditions, str) or not hasattr(conditions, "__iter__"):
-        raise TypeError(f"conditions is {conditions!r}: give pairs of advance ratio and weight, {example}")
+        raise TypeError(
+            f"conditions is {conditions!r}: give pairs of advance ratio and weight, {example}"
+        )
     weighted: list[WeightedCondition] = []
     for pair in conditions:
         if not isinstance(pair, tuple | list) or len(pair) != 2:  # pyright: ignore[reportUnnecessaryIsInstance]
-            raise TypeError(f"condition {pair!r} is not a pair: give advance ratio and weight, {example}")
+            raise TypeError(
+                f"condition {pair!r} is not a pair: give advance ratio and weight, {example}"
+            )
         where, weight = pair
         if isinstance(where, Design):
             if where.rotor.at_speed(100.0).tip_speed != design.rotor.at_speed(100.0).tip_speed:
-                raise ValueError(f"a condition has {where.rotor.name}, the design {design.rotor.name}: use one rotor")
+                raise ValueError(
+                    f"a condition has {where.rotor.name}, the design {design.rotor.name}: use one rotor"
+                )
             flight = where.condition
         else:
             flight = design.at(mu=where).condition
@@ -106,10 +116,14 @@ def hover_and_cruise(
 ) -> Objective:
     """Power in hover and in cruise, weighted by the share of time in hover, 0…1; ValueError outside."""
     if not 0.0 <= hover_share <= 1.0:
-        raise ValueError(f"hover share {hover_share:g} is outside 0…1: give the fraction of time in hover")
+        raise ValueError(
+            f"hover share {hover_share:g} is outside 0…1: give the fraction of time in hover"
+        )
     pairs = ((0.0, hover_share), (cruise_advance_ratio, 1.0 - hover_share))
     conditions = tuple(
-        WeightedCondition(replace(design.condition, advance_ratio=mu), share) for mu, share in pairs if share > 0.0
+        WeightedCondition(replace(design.condition, advance_ratio=mu), share)
+        for mu, share in pairs
+        if share > 0.0
     )
     return Objective(quantity, conditions)
 
@@ -153,9 +167,13 @@ def check_index(design: Design, objective: Objective, limits: Limits) -> None:
         if reason is not None:
             where = f"advance ratio {condition.flight.advance_ratio:g}"
             why = f"{reason.sentence[0].lower()}{reason.sentence[1:].rstrip('.')}"
-            raise ValueError(f"there is no vibration index at {where} ({why}): choose other conditions")
+            raise ValueError(
+                f"there is no vibration index at {where} ({why}): choose other conditions"
+            )
     if not design.models.bending:
-        raise ValueError("the vibration index needs bending blades: add --bending, or bending=True in Python")
+        raise ValueError(
+            "the vibration index needs bending blades: add --bending, or bending=True in Python"
+        )
 
 
 def evaluate_objective(
@@ -177,9 +195,15 @@ def evaluate_objective(
     limits = limits or Limits()
     vibration, indexed = objective.quantity == "vibration", limits.index is not None
     kind: PowerKind = "induced" if objective.quantity == "induced" else "total"
-    trims, stalled, indices = list[Analysis](), list[tuple[float, Array]](), list[tuple[float, Array]]()
+    trims, stalled, indices = (
+        list[Analysis](),
+        list[tuple[float, Array]](),
+        list[tuple[float, Array]](),
+    )
     power, index, slopes = 0.0, 0.0, list[Array]()
-    for k, (condition, share) in enumerate(zip(objective.conditions, objective.shares, strict=True)):
+    for k, (condition, share) in enumerate(
+        zip(objective.conditions, objective.shares, strict=True)
+    ):
         if k < len(solved):
             trims.append(solved[k])
         else:
@@ -250,10 +274,15 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
     """
     path = Path(path)
     text = read_text(path, "mission", f"give a CSV file with {', '.join(MISSION_COLUMNS)}")
-    numbered = [(number, line.partition("#")[0].strip()) for number, line in enumerate(text.splitlines(), start=1)]
+    numbered = [
+        (number, line.partition("#")[0].strip())
+        for number, line in enumerate(text.splitlines(), start=1)
+    ]
     rows = [(number, next(csv.reader([line]))) for number, line in numbered if line]
     if not rows:
-        raise ValueError(f"mission {str(path)!r} is empty: start it with the line {','.join(MISSION_COLUMNS)}")
+        raise ValueError(
+            f"mission {str(path)!r} is empty: start it with the line {','.join(MISSION_COLUMNS)}"
+        )
     heading = [cell.strip() for cell in rows[0][1]]
     unknown = [name for name in heading if name not in MISSION_COLUMNS]
     if unknown or "mu" not in heading:
@@ -262,8 +291,13 @@ def read_mission(path: str | Path, design: Design) -> tuple[WeightedCondition, .
             f"write the heading {','.join(MISSION_COLUMNS)}; only mu is required"
         )
     if len(rows) < 2:
-        raise ValueError(f"mission {str(path)!r} has no flight conditions: add a line with a number for each column")
-    return tuple(_condition(path, line, dict(zip(heading, cells, strict=False)), design) for line, cells in rows[1:])
+        raise ValueError(
+            f"mission {str(path)!r} has no flight conditions: add a line with a number for each column"
+        )
+    return tuple(
+        _condition(path, line, dict(zip(heading, cells, strict=False)), design)
+        for line, cells in rows[1:]
+    )
 
 
 def _condition(path: Path, line: int, cells: dict[str, str], design: Design) -> WeightedCondition:
@@ -271,7 +305,8 @@ def _condition(path: Path, line: int, cells: dict[str, str], design: Design) -> 
         base = design.condition.numbers | {"mu": None}
         numbers = {row.field: _number(cells, name, base[name]) for name, row in CONDITION.items()}
         condition = replace(design.condition, **numbers)
-        replace(design, condition=condition)  # Refuses a climb where the models are those of level flight.
+        # Refuses a climb where the models are those of level flight.
+        replace(design, condition=condition)
         return WeightedCondition(condition, _number(cells, "hours", 1.0))
     except ValueError as error:
         raise ValueError(f"mission {str(path)!r} line {line}: {error}") from None

@@ -128,7 +128,9 @@ class Optimum:
         if self.doubt is not None:
             return self.doubt.saving_words
         saving = self.saving_percent
-        return "" if saving is None else f"{'saves' if saving >= 0.0 else 'costs'} {abs(saving):.2f} %"
+        return (
+            "" if saving is None else f"{'saves' if saving >= 0.0 else 'costs'} {abs(saving):.2f} %"
+        )
 
     @property
     def saving_percent(self) -> float | None:

@@ -43,14 +43,22 @@ class SchedulePlan:
 
     def __post_init__(self) -> None:
         if not self.conditions or not self.concepts:
-            raise ValueError("a schedule needs a flight condition and a concept: give at least one of each")
+            raise ValueError(
+                "a schedule needs a flight condition and a concept: give at least one of each"
+            )
         if self.quantity == "vibration":
-            raise ValueError("a schedule compares powers: use objective total or induced, with a limit on the index")
+            raise ValueError(
+                "a schedule compares powers: use objective total or induced, with a limit on the index"
+            )
         check_index(self.design, Objective(self.quantity, self.conditions), self.limits)
 
     def design_at(self, condition: int | None) -> Design:
         """The starting design at a condition; None: at its own condition."""
-        return self.design if condition is None else replace(self.design, condition=self.conditions[condition].flight)
+        return (
+            self.design
+            if condition is None
+            else replace(self.design, condition=self.conditions[condition].flight)
+        )
 
 
 @dataclass(frozen=True)
@@ -96,7 +104,14 @@ class Schedule:
 
     def at(self, condition: int | None, concept: str) -> Optimum | None:
         """The optimum of a concept at a condition; None: the fixed blade."""
-        return next((one.optimum for one in self.cells if (one.condition, one.concept) == (condition, concept)), None)
+        return next(
+            (
+                one.optimum
+                for one in self.cells
+                if (one.condition, one.concept) == (condition, concept)
+            ),
+            None,
+        )
 
     @property
     def complete(self) -> bool:
@@ -106,17 +121,25 @@ class Schedule:
     @property
     def converged(self) -> bool:
         """Whether every optimum has been computed and converged."""
-        return self.complete and all(cell.optimum.status is SearchStatus.CONVERGED for cell in self.cells)
+        return self.complete and all(
+            cell.optimum.status is SearchStatus.CONVERGED for cell in self.cells
+        )
 
     def gain_doubt(self, concept: str) -> Doubt | None:
         """How sure the gain of in-flight twist is: every condition is solved with both blades; None without a gain."""
-        fixed, shares = self.at(None, concept), Objective(self.plan.quantity, self.plan.conditions).shares
+        fixed, shares = (
+            self.at(None, concept),
+            Objective(self.plan.quantity, self.plan.conditions).shares,
+        )
         if self.in_flight_gain(concept) is None or fixed is None:
             return None
         moving = [self.at(k, concept) for k in range(len(shares))]
         designs = [cell.design for cell in moving if cell is not None]
         flights = [condition.flight for condition in self.plan.conditions]
-        here = [solve(replace(design, condition=flight)) for design, flight in zip(designs, flights, strict=True)]
+        here = [
+            solve(replace(design, condition=flight))
+            for design, flight in zip(designs, flights, strict=True)
+        ]
         there = [solve(replace(fixed.design, condition=flight)) for flight in flights]
         return difference_doubt(shares, here, there, induced=self.plan.quantity == "induced")
 
@@ -158,11 +181,17 @@ def run_plan(
         try:
             stopped = run_tasks(pool, [(_work_chunk, (plan, chunk)) for chunk in chunks], add, stop)
             if not stopped:
-                concepts = [plan.concepts[k : k + CHUNK] for k in range(0, len(plan.concepts), CHUNK)]
-                run_tasks(pool, [(_work_fixed, (plan, some, dict(cells))) for some in concepts], add, stop)
+                concepts = [
+                    plan.concepts[k : k + CHUNK] for k in range(0, len(plan.concepts), CHUNK)
+                ]
+                run_tasks(
+                    pool, [(_work_fixed, (plan, some, dict(cells))) for some in concepts], add, stop
+                )
         except WorkerLost as lost:
             message = str(lost)
-    order = ((condition, concept.name) for condition in (*conditions, None) for concept in plan.concepts)
+    order = (
+        (condition, concept.name) for condition in (*conditions, None) for concept in plan.concepts
+    )
     return Schedule(plan, tuple(cells[place] for place in order if place in cells), message)
 
 
@@ -183,16 +212,24 @@ def _work_chunk(
 
 
 def _work_fixed(
-    plan: SchedulePlan, concepts: tuple[Concept, ...], known: _Known, stop: Callable[[], bool] | None
+    plan: SchedulePlan,
+    concepts: tuple[Concept, ...],
+    known: _Known,
+    stop: Callable[[], bool] | None,
 ) -> Iterator[ScheduleOptimum]:
     """The best fixed blades of some concepts, each started from the mean of its optima."""
 
     def mean(concept: Concept) -> list[tuple[float, ...]]:
         shares = Objective(plan.quantity, plan.conditions).shares
-        bests = [(share, known.get((condition, concept.name))) for condition, share in enumerate(shares)]
+        bests = [
+            (share, known.get((condition, concept.name))) for condition, share in enumerate(shares)
+        ]
         optima = [(share, cell.optimum.best) for share, cell in bests if cell and cell.optimum.best]
         total, count = sum(share for share, _ in optima), len(concept.parameters)
-        middle = (sum(share * best.parameters[k] for share, best in optima) / (total or 1.0) for k in range(count))
+        middle = (
+            sum(share * best.parameters[k] for share, best in optima) / (total or 1.0)
+            for k in range(count)
+        )
         return [tuple(middle)] if optima else []
 
     yield from _searches(plan, None, concepts, known, mean, stop)
@@ -208,13 +245,17 @@ def _searches(
 ) -> Iterator[ScheduleOptimum]:
     """The cells of a condition, or of the fixed blade, added to those known: one model of power serves all."""
     trimmed = TrimHistory()
-    objective = Objective(plan.quantity, plan.conditions if condition is None else (plan.conditions[condition],))
+    objective = Objective(
+        plan.quantity, plan.conditions if condition is None else (plan.conditions[condition],)
+    )
     for concept in concepts:
         guesses = guesses_of(concept)
         # The neighbour's minimum need not be the best at a condition, so other starting points are added.
         starts = 1 if condition is None else max(plan.starts, len(guesses) + 1)
         design = plan.design_at(condition)
-        search = Search(design, concept, objective, plan.limits, starts, plan.seed, tuple(guesses), band=False)
+        search = Search(
+            design, concept, objective, plan.limits, starts, plan.seed, tuple(guesses), band=False
+        )
         optimum = run_search(search, stop=stop, trimmed=trimmed)
         if optimum.status is SearchStatus.STOPPED:
             return
@@ -224,7 +265,9 @@ def _searches(
         yield cell
 
 
-def _guesses(plan: SchedulePlan, condition: int, concept: Concept, known: _Known) -> list[tuple[float, ...]]:
+def _guesses(
+    plan: SchedulePlan, condition: int, concept: Concept, known: _Known
+) -> list[tuple[float, ...]]:
     """The neighbour's optimum, and the best of the simpler concepts at this condition."""
     guesses: list[tuple[float, ...]] = []
     neighbour = known.get((condition - 1, concept.name))
@@ -232,7 +275,11 @@ def _guesses(plan: SchedulePlan, condition: int, concept: Concept, known: _Known
         guesses.append(neighbour.optimum.best.parameters)
     before = plan.concepts[: plan.concepts.index(concept)]
     here = [known.get((condition, other.name)) for other in before]
-    simpler = [(cell.optimum.best.power, cell.optimum.design) for cell in here if cell and cell.optimum.best]
+    simpler = [
+        (cell.optimum.best.power, cell.optimum.design)
+        for cell in here
+        if cell and cell.optimum.best
+    ]
     if simpler:
         _, design = min(simpler, key=lambda pair: pair[0])
         guesses.append(nearest(concept, design.twist))

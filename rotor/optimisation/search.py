@@ -21,8 +21,23 @@ from rotor.optimisation.descent import BAND, TOLERANCE, LocalModel, descend, mea
 from rotor.optimisation.doubt import BestTwistDoubt, best_twist_doubt, saving_doubt
 from rotor.optimisation.evaluator import FEASIBLE, Evaluation, Evaluator, SearchStopped, TrimHistory
 from rotor.optimisation.limits import Limits
-from rotor.optimisation.objective import Objective, ObjectiveValue, Quantity, at_condition, check_index, over_conditions
-from rotor.optimisation.results import BestTwist, Minimum, Optimum, ParameterBand, Progress, SearchStatus, TwistRange
+from rotor.optimisation.objective import (
+    Objective,
+    ObjectiveValue,
+    Quantity,
+    at_condition,
+    check_index,
+    over_conditions,
+)
+from rotor.optimisation.results import (
+    BestTwist,
+    Minimum,
+    Optimum,
+    ParameterBand,
+    Progress,
+    SearchStatus,
+    TwistRange,
+)
 from rotor.support.arrays import Array
 from rotor.support.blas_threads import one_blas_thread
 from rotor.trim.doubt import Doubt, other_models
@@ -64,7 +79,9 @@ class Search:
 
     def __post_init__(self) -> None:
         if not 1 <= self.starts <= 1000:
-            raise ValueError(f"{self.starts} starts are outside 1…1000: 6 are enough for most concepts")
+            raise ValueError(
+                f"{self.starts} starts are outside 1…1000: 6 are enough for most concepts"
+            )
         if self.seed < 0:
             raise ValueError(f"seed {self.seed} is negative: give 0 or more")
         limits = self.limits.about(self.design.twist, self.design.rotor.blade.root_cutout)
@@ -90,14 +107,25 @@ def run_search(
     count = max(search.starts, len(search.guesses))
     objective = search.objective or at_condition(search.design)
     evaluate = Evaluator(
-        search.design, search.concept, objective, search.limits, count, watch, stop, trimmed or TrimHistory()
+        search.design,
+        search.concept,
+        objective,
+        search.limits,
+        count,
+        watch,
+        stop,
+        trimmed or TrimHistory(),
     )
     run = _Run(search, evaluate)
     try:
         run.baseline = evaluate.baseline()
         if begun is not None:
             begun(run.baseline.power)
-        if objective.quantity == "total" and run.baseline.power is not None and run.baseline.power <= 0.0:
+        if (
+            objective.quantity == "total"
+            and run.baseline.power is not None
+            and run.baseline.power <= 0.0
+        ):
             return run.result(
                 refusal=(
                     "The air drives the rotor at this rate of descent, so total power is below zero and a saving has "
@@ -159,7 +187,9 @@ class _Run:
 
         def known(x: Array) -> bool:
             """Whether a descent goes on to a minimum known; noted, once it does."""
-            arrived[:] = [k for k, (lead, _) in enumerate(self.groups) if self._leads_to(lead, x)][:1]
+            arrived[:] = [k for k, (lead, _) in enumerate(self.groups) if self._leads_to(lead, x)][
+                :1
+            ]
             return bool(arrived)
 
         descent = descend(self.evaluate, first, known)
@@ -170,16 +200,24 @@ class _Run:
 
     def try_predicted_minima(self) -> None:
         """Descend where the model foresees less than the best: laws with movable breaks have many minima."""
-        places = scipy.stats.qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(_MODEL_STARTS)
+        places = scipy.stats.qmc.Halton(len(self.evaluate.span), seed=self.search.seed).random(
+            _MODEL_STARTS
+        )
         for _ in range(_MODEL_STARTS):
             if self.best is None:
                 return
             model = LocalModel(self.evaluate, self.best.blade, self.evaluate.trimmed.all)
             x = min((model.least(place) for place in places), key=model.cost)
-            if model.cost(x) >= self.best.cost * (1.0 - TOLERANCE[self.evaluate.objective.quantity]):
+            if model.cost(x) >= self.best.cost * (
+                1.0 - TOLERANCE[self.evaluate.objective.quantity]
+            ):
                 return
             first = self.evaluate(x)
-            end = descend(self.evaluate, first, lambda _: False).end if first.power is not None else None
+            end = (
+                descend(self.evaluate, first, lambda _: False).end
+                if first.power is not None
+                else None
+            )
             if end is None or end.cost >= self.best.cost:
                 return
             self.groups.append((end, []))
@@ -187,10 +225,16 @@ class _Run:
     def ask_how_sure(self, objective: Objective) -> None:
         """Compute the uncertainty of the saving and of the best twist."""
         assert self.best is not None
-        search, values, starts = self.search, self.evaluate.values(self.best.x), self.evaluate.starts_for
+        search, values, starts = (
+            self.search,
+            self.evaluate.values(self.best.x),
+            self.evaluate.starts_for,
+        )
         best = search.concept.apply(search.design, values)
         self.doubt = saving_doubt(objective, best, search.design, starts)
-        self.twist_doubt = best_twist_doubt(search.design, search.concept, objective, search.limits, values, starts)
+        self.twist_doubt = best_twist_doubt(
+            search.design, search.concept, objective, search.limits, values, starts
+        )
 
     def _leads_to(self, lead: Evaluation, x: Array) -> bool:
         """Whether a point is so near a minimum that a descent from there ends in it."""
@@ -251,7 +295,11 @@ class _Run:
         else:
             status = SearchStatus.CONVERGED
             agree = len(minima[0].starts)
-            which = "only local minimum found" if len(minima) == 1 else f"best of {len(minima)} local minima"
+            which = (
+                "only local minimum found"
+                if len(minima) == 1
+                else f"best of {len(minima)} local minima"
+            )
             message = f"{agree} of {evaluate.starts} starting points converged to the {which}."
             if not agree:
                 message = f"The {which} was found from the gradients at the others: no starting point led to it."
@@ -261,7 +309,9 @@ class _Run:
             status=status,
             message=message,
             concept=search.concept.name,
-            design=search.design if best is None else search.concept.apply(search.design, best.parameters),
+            design=search.design
+            if best is None
+            else search.concept.apply(search.design, best.parameters),
             best=best,
             minima=minima,
             band=self.band,
@@ -292,11 +342,16 @@ def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> 
     values = evaluate.values(record.x)
     names = (parameter.name for parameter in evaluate.concept.parameters)
     at = zip(names, record.x, strict=True)
-    active = [f"{name} {'low' if x < 0.5 else 'high'}" for name, x in at if x < 1e-4 or x > 1.0 - 1e-4]
+    active = [
+        f"{name} {'low' if x < 0.5 else 'high'}" for name, x in at if x < 1e-4 or x > 1.0 - 1e-4
+    ]
     limits = evaluate.limits
     tight = record.margins < 10.0 * FEASIBLE
     rates = 2 * len(evaluate.concept.rate_rows) if limits.rate is not None else 0
-    changes, conditions = len(record.margins) - rates - len(evaluate.largest), len(evaluate.objective.conditions)
+    changes, conditions = (
+        len(record.margins) - rates - len(evaluate.largest),
+        len(evaluate.objective.conditions),
+    )
     if tight[:rates].any():
         active.append("rate")
     if tight[rates : rates + changes].any():
@@ -395,15 +450,19 @@ def best_linear_twist(design: Design) -> BestTwist:
     bands = ("flat", result.band), ("doubt", result.doubt_band)
     ranges = [TwistRange(cause, (band[0].low, band[0].high)) for cause, band in bands if band]
 
+    guesses = (result.best.parameters,)
+
     def rate(other: Design) -> float:
-        best = run_search(Search(other, concept, guesses=(result.best.parameters,), starts=1, band=False)).best  # type: ignore[union-attr]
+        search = Search(other, concept, guesses=guesses, starts=1, band=False)
+        best = run_search(search).best
         return math.nan if best is None else best.parameters[0]
 
     for cause, ends, designs in nearby_flights(design):
         ranges.append(TwistRange(cause, (rate(designs[0]), rate(designs[1])), ends))
     if design.hovering:
         ranges += [
-            TwistRange("wake", (result.best.parameters[0], rate(line))) for line in other_models(design).values()
+            TwistRange("wake", (result.best.parameters[0], rate(line)))
+            for line in other_models(design).values()
         ]
     known = tuple(each for each in ranges if math.isfinite(each.width))
     return BestTwist(result.best.parameters[0], known, result.doubt_cost)
@@ -419,11 +478,21 @@ def nearby_flights(design: Design) -> list[tuple[str, tuple[float, float], tuple
         return []
     low, high = (share * condition.mass for share in MASSES)
     masses = replace(condition, mass=low), replace(condition, mass=high)
-    flights = [("mass", (low, high), (replace(design, condition=masses[0]), replace(design, condition=masses[1])))]
+    flights = [
+        (
+            "mass",
+            (low, high),
+            (replace(design, condition=masses[0]), replace(design, condition=masses[1])),
+        )
+    ]
     if fuselage.drag_area and not design.hovering:
         low, high = (share * fuselage.drag_area for share in DRAG_AREAS)
         bodies = replace(fuselage, drag_area=low), replace(fuselage, drag_area=high)
         flights.append(
-            ("drag area", (low, high), (replace(design, fuselage=bodies[0]), replace(design, fuselage=bodies[1])))
+            (
+                "drag area",
+                (low, high),
+                (replace(design, fuselage=bodies[0]), replace(design, fuselage=bodies[1])),
+            )
         )
     return flights

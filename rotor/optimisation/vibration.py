@@ -83,7 +83,9 @@ class TMatrix:
         for harmonic in read_harmonics(twist_per_rev, "twist_per_rev"):
             if harmonic.per_rev not in self.harmonics:
                 have = ", ".join(map(str, self.harmonics))
-                raise ValueError(f"the matrix has no {harmonic.per_rev}/rev: use {have}, or make it with that harmonic")
+                raise ValueError(
+                    f"the matrix has no {harmonic.per_rev}/rev: use {have}, or make it with that harmonic"
+                )
             phase = np.array([math.cos(harmonic.phase), math.sin(harmonic.phase)])
             x[self.harmonics.index(harmonic.per_rev)] = harmonic.amplitude * phase
         values = self._values(x.ravel())[0]
@@ -95,7 +97,9 @@ class TMatrix:
     def twist(self, x: Array) -> tuple[Harmonic, ...]:
         """Active twist with these cosine and sine amplitudes [rad], (2 H,)."""
         pairs = zip(self.harmonics, x.reshape(-1, 2).tolist(), strict=True)
-        return tuple(Harmonic(n, math.hypot(a, b), math.atan2(b, a)) for n, (a, b) in pairs if a or b)
+        return tuple(
+            Harmonic(n, math.hypot(a, b), math.atan2(b, a)) for n, (a, b) in pairs if a or b
+        )
 
     def power_and_index(self, x: Array) -> tuple[Array, Array]:
         """Total power [W] and index [%] with cosines and sines [rad], (2,), and their slopes by x, (2, 2 H)."""
@@ -116,7 +120,9 @@ def with_harmonics(design: Design, harmonics: tuple[Harmonic, ...]) -> Design:
         return replace(design, active_twist=None)
     if old is not None:
         return replace(design, active_twist=replace(old, harmonics=harmonics))
-    return replace(design, active_twist=linear_active_twist(harmonics, design.rotor.blade.root_cutout))
+    return replace(
+        design, active_twist=linear_active_twist(harmonics, design.rotor.blade.root_cutout)
+    )
 
 
 def t_matrix(design: Design, harmonics: Sequence[int] = (2, 3, 4, 5)) -> TMatrix:
@@ -229,7 +235,8 @@ class VibrationFront:
 
     def __repr__(self) -> str:
         ends = " to ".join(
-            f"({power:+.2f} %, {index:+.0f} %)" for power, index in self.changes[:: len(self.points) - 1 or 1]
+            f"({power:+.2f} %, {index:+.0f} %)"
+            for power, index in self.changes[:: len(self.points) - 1 or 1]
         )
         return f"VibrationFront({len(self.points)} points of power and index: {ends})"
 
@@ -237,7 +244,10 @@ class VibrationFront:
     def changes(self) -> tuple[tuple[float, float], ...]:
         """Change of power and of index from the start [%], point by point."""
         return tuple(
-            (100.0 * (point.power / self.start.power - 1.0), 100.0 * (point.index / self.start.index - 1.0))
+            (
+                100.0 * (point.power / self.start.power - 1.0),
+                100.0 * (point.index / self.start.index - 1.0),
+            )
             for point in self.points
         )
 
@@ -245,8 +255,16 @@ class VibrationFront:
     def preview_error(self) -> tuple[float, float] | None:
         """Largest errors of the preview, of power and of index, in per cent of those of the start."""
         pairs = [(point.preview, point) for point in self.points]
-        power = [abs(seen[0] - point.power) / self.start.power for seen, point in pairs if seen is not None]
-        index = [abs(seen[1] - point.index) / self.start.index for seen, point in pairs if seen is not None]
+        power = [
+            abs(seen[0] - point.power) / self.start.power
+            for seen, point in pairs
+            if seen is not None
+        ]
+        index = [
+            abs(seen[1] - point.index) / self.start.index
+            for seen, point in pairs
+            if seen is not None
+        ]
         return (100.0 * max(power), 100.0 * max(index)) if power else None
 
 
@@ -279,7 +297,9 @@ def vibration_front(
     """
     require_design(design)
     if not 2 <= points <= 50:
-        raise ValueError(f"{points} points of a trade-off curve are outside 2…50: 5 are enough for most")
+        raise ValueError(
+            f"{points} points of a trade-off curve are outside 2…50: 5 are enough for most"
+        )
     if not 0.0 < reach_deg <= 5.0:
         raise ValueError(
             f"reach {reach_deg:g}° of the active twist is outside 0…5°: choose a value inside; actuators reach 1 to 2"
@@ -293,11 +313,15 @@ def vibration_front(
     designs = [with_harmonics(design, matrix.twist(x)) for x in steps]
     for x, trim in zip(steps, analyse_many(designs, [matrix.solution] * len(designs)), strict=True):
         power, index = matrix.power_and_index(x)[0].tolist()
-        front += [replace(_trimmed(trim), preview=(power, index))] if trim.solution.converged else []
+        front += (
+            [replace(_trimmed(trim), preview=(power, index))] if trim.solution.converged else []
+        )
         lost += not trim.solution.converged
     reached = f"at most {reach_deg:g}° each of {', '.join(map(str, matrix.harmonics))}/rev"
     words = f"Active twist, {reached}; every point is trimmed again."
-    return _over_inflows(VibrationFront(start, tuple(front), words + (f" {lost} did not trim." if lost else "")))
+    return _over_inflows(
+        VibrationFront(start, tuple(front), words + (f" {lost} did not trim." if lost else ""))
+    )
 
 
 def _trimmed(given: Solution | Analysis) -> FrontPoint:
@@ -308,11 +332,15 @@ def _trimmed(given: Solution | Analysis) -> FrontPoint:
 def _over_inflows(front: VibrationFront) -> VibrationFront:
     """With band and changes of the index over inflow models."""
     every = (front.start, *front.points)
-    indices = np.array([[_index_with(point, inflow) for inflow in band_inflows()] for point in every])
+    indices = np.array(
+        [[_index_with(point, inflow) for inflow in band_inflows()] for point in every]
+    )
     changes = 100.0 * (indices / indices[0] - 1.0)
     points = [
         replace(
-            point, band=_ends([*index, point.index]), over_inflows=_ends(change) if point is not front.start else None
+            point,
+            band=_ends([*index, point.index]),
+            over_inflows=_ends(change) if point is not front.start else None,
         )
         for point, index, change in zip(every, indices.tolist(), changes.tolist(), strict=True)
     ]
@@ -336,7 +364,10 @@ def _ends(values: Sequence[float]) -> tuple[float, float] | None:
 
 def front_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
     """Cosines and sines [rad] of least power for limits of the index, by the T-matrix; `reach` [rad] of each."""
-    size, start = 2 * len(matrix.harmonics), matrix.power_and_index(np.zeros(2 * len(matrix.harmonics)))[0]
+    size, start = (
+        2 * len(matrix.harmonics),
+        matrix.power_and_index(np.zeros(2 * len(matrix.harmonics)))[0],
+    )
     scale = np.array([0.01 * start[0], start[1]])
 
     def seen(u: Array) -> tuple[Array, Array]:
@@ -348,7 +379,9 @@ def front_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
 
     def within_slopes(u: Array) -> Array:
         pairs = -2.0 * u.reshape(-1, 2)
-        return np.stack([np.where(np.arange(size) // 2 == k, pairs.ravel(), 0.0) for k in range(len(pairs))])
+        return np.stack(
+            [np.where(np.arange(size) // 2 == k, pairs.ravel(), 0.0) for k in range(len(pairs))]
+        )
 
     def least(which: int, starts: Sequence[Array], limit: float | None = None) -> Array:
         """Twist of least power (0) or index (1), with the index at most `limit`."""
@@ -368,7 +401,9 @@ def front_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
         options = {"maxiter": 200, "ftol": 1e-9}
         descents = [slsqp(cost, u, constraints=limits, options=options) for u in starts]
         ends = [*(np.asarray(descent.x, dtype=np.float64) for descent in descents), *starts]
-        return min((u for u in ends if min(within(u).min(), room(u)) > -1e-6), key=lambda u: cost(u)[0])
+        return min(
+            (u for u in ends if min(within(u).min(), room(u)) > -1e-6), key=lambda u: cost(u)[0]
+        )
 
     sides = [np.zeros(size), *(0.7 * np.eye(size)), *(-0.7 * np.eye(size))]
     ends = least(0, sides), least(1, sides)
@@ -376,7 +411,9 @@ def front_twists(matrix: TMatrix, reach: float, points: int) -> list[Array]:
     twists = [ends[0]]
     for limit in np.linspace(high, low, points)[1:-1].tolist():
         share = (high - limit) / (high - low)
-        twists.append(least(0, [ends[1], twists[-1], (1.0 - share) * ends[0] + share * ends[1]], limit))
+        twists.append(
+            least(0, [ends[1], twists[-1], (1.0 - share) * ends[0] + share * ends[1]], limit)
+        )
     return [reach * u for u in (*twists, ends[1])]
 
 
@@ -394,10 +431,16 @@ def _static_front(design: Design, concept: str, points: int) -> VibrationFront:
         held = replace(plain, limits=Limits(index=limit), starts=len(guesses), guesses=guesses)
         searches.append(run_search(held, trimmed=trimmed))
         front.append(_best(searches[-1]))
-    trims = analyse_many([family.apply(design, point.parameters) for point in (*front, _best(calm))])
+    trims = analyse_many(
+        [family.apply(design, point.parameters) for point in (*front, _best(calm))]
+    )
     lost = sum(search.status is not SearchStatus.CONVERGED for search in searches)
     words = f"Static twist, {family.title.lower()}."
-    words += f" {lost} of {len(searches)} searches did not converge: their best twist so far is kept." if lost else ""
+    words += (
+        f" {lost} of {len(searches)} searches did not converge: their best twist so far is kept."
+        if lost
+        else ""
+    )
     return _over_inflows(VibrationFront(start, tuple(map(_trimmed, trims)), words))
 
 

@@ -28,7 +28,15 @@ from rotor.study.study import QUANTITIES, Study, Value, columns_of
 from rotor.study.study_file import StudyFile
 from rotor.support.assets import package_version
 from rotor.support.blas_threads import one_blas_thread
-from rotor.support.user_input import extra_module, is_file, make_folder, read_bytes, refusing, shorten, write_whole
+from rotor.support.user_input import (
+    extra_module,
+    is_file,
+    make_folder,
+    read_bytes,
+    refusing,
+    shorten,
+    write_whole,
+)
 from rotor.trim.many import BATCH
 
 ABOUT, SOURCE, _LOCK = "_study.json", "_study.toml", "_lock"
@@ -77,7 +85,9 @@ def evaluate_points(study: Study, first: int, last: int) -> list[Row]:
     while len(rows) < len(values):
         left = values[len(rows) : len(rows) + BATCH]
         trims = trims_in_step(left, study)
-        rows += [evaluate(point, study, warm, trim) for point, trim in zip(left, trims, strict=False)]
+        rows += [
+            evaluate(point, study, warm, trim) for point, trim in zip(left, trims, strict=False)
+        ]
     return [{"point": number, **row} for number, row in enumerate(rows, start=first)]
 
 
@@ -93,7 +103,9 @@ def evaluate_chunk(study: Study, chunk: int, provenance: StudyProvenance) -> Fin
     begin = time.process_time()
     rows = evaluate_points(study, *study.span(chunk))
     worker = f"{socket.gethostname()}:{os.getpid()}"
-    content = _parquet(rows, study, describe(study, provenance) | {"chunk": chunk, "worker": worker})
+    content = _parquet(
+        rows, study, describe(study, provenance) | {"chunk": chunk, "worker": worker}
+    )
     failures = sum(row["status"] != CONVERGED for row in rows)
     return FinishedChunk(chunk, len(rows), failures, time.process_time() - begin, worker, content)
 
@@ -122,7 +134,9 @@ def describe(study: Study, provenance: StudyProvenance) -> dict[str, Any]:
         "commit": provenance.commit or "",
         "study": study.fingerprint,
         "study_file_sha256": provenance.file_sha256,
-        "preset": str(given.get("preset", "as the column says" if "preset" in study.axis_names else "flight")),
+        "preset": str(
+            given.get("preset", "as the column says" if "preset" in study.axis_names else "flight")
+        ),
         "models": _models(study),
         "axes": list(study.axis_names),
         "given": given,
@@ -136,7 +150,11 @@ def _models(study: Study) -> dict[str, Value]:
     if "preset" in study.axis_names:
         return given
     models = asdict(preset_models(str(given.get("preset", "flight"))))
-    return {name: value for name, value in models.items() if value is not None and name not in study.axis_names} | given
+    return {
+        name: value
+        for name, value in models.items()
+        if value is not None and name not in study.axis_names
+    } | given
 
 
 def arrow_modules() -> tuple[Any, Any]:
@@ -150,11 +168,16 @@ def _parquet(rows: list[Row], study: Study, about: dict[str, Any]) -> bytes:
     arrow, parquet = arrow_modules()
     kinds = {"number": arrow.float64(), "count": arrow.int64(), "text": arrow.string()}
     fields = [
-        arrow.field(name.name, kinds[name.kind], metadata={"unit": name.unit} if name.unit else None)
+        arrow.field(
+            name.name, kinds[name.kind], metadata={"unit": name.unit} if name.unit else None
+        )
         for name in columns_of(study)
     ]
-    about = about | {"PANDAS_ATTRS": {"units": about["units"]}}  # What pandas reads into `attrs` of its data frame.
-    texts = {key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()}
+    # What pandas reads into `attrs` of its data frame.
+    about = about | {"PANDAS_ATTRS": {"units": about["units"]}}
+    texts = {
+        key: value if isinstance(value, str) else json.dumps(value) for key, value in about.items()
+    }
     table = arrow.Table.from_pylist(rows, schema=arrow.schema(fields, metadata=texts))
     out = io.BytesIO()
     parquet.write_table(table, out, compression="zstd")
@@ -171,7 +194,10 @@ def is_undamaged(content: bytes) -> bool:
     """Whether a chunk is as it was written. Not every damage is an error of its reader: some change a number."""
     footer = _footer(content)
     start = footer - _DIGEST
-    return start > 0 and hashlib.sha256(content[:start] + content[footer:]).digest() == content[start:footer]
+    return (
+        start > 0
+        and hashlib.sha256(content[:start] + content[footer:]).digest() == content[start:footer]
+    )
 
 
 class StudyFolderError(RuntimeError):
@@ -188,7 +214,9 @@ class StudyFolder:
             make_folder(self.folder)
             known = read_about(self.folder) if (self.folder / ABOUT).exists() else None
             if known is None and any(path.name != _LOCK for path in self.folder.iterdir()):
-                raise ValueError(f"folder {str(folder)!r} holds other files: give a new one with --out DIR")
+                raise ValueError(
+                    f"folder {str(folder)!r} holds other files: give a new one with --out DIR"
+                )
             if known is not None:
                 self._check(known, provenance)
             self._lock = _hold(self.folder)
@@ -198,7 +226,9 @@ class StudyFolder:
             for left in self.folder.glob(".*.part"):  # Left by a run that was killed while writing.
                 left.unlink()
         except OSError as error:
-            raise ValueError(f"cannot write to {str(folder)!r} ({error.strerror}): give --out DIR") from None
+            raise ValueError(
+                f"cannot write to {str(folder)!r} ({error.strerror}): give --out DIR"
+            ) from None
 
     def close(self) -> None:
         if self._lock is not None:
@@ -219,7 +249,9 @@ class StudyFolder:
             except Exception as error:
                 fault = error if isinstance(error, StudyFolderError) else "is damaged"
                 path.replace(aside := path.with_name(f"_{path.name}"))
-                warn(f"{path.name} {fault}: it is now {aside.name}, and its points are computed again")
+                warn(
+                    f"{path.name} {fault}: it is now {aside.name}, and its points are computed again"
+                )
         left = [chunk for chunk in range(self.study.chunks) if chunk not in present]
         random.Random(0).shuffle(left)
         return left
@@ -242,7 +274,9 @@ class StudyFolder:
         about = {key.decode(): value.decode() for key, value in metadata.metadata.items()}
         if about["study"] != self.study.fingerprint:
             raise StudyFolderError("belongs to another study")
-        if (by := _computed_by(about)) != (here := _computed_by(describe(self.study, self.provenance))):
+        if (by := _computed_by(about)) != (
+            here := _computed_by(describe(self.study, self.provenance))
+        ):
             raise StudyFolderError(f"was computed by {by}, this is {here}")
         return int(about["chunk"])
 
@@ -274,7 +308,9 @@ def read_about(folder: str | Path) -> dict[str, Any]:
     with refusing(f"{shorten(str(path))!r}", remedy):
         about: Any = json.loads(read_bytes(path, "description", remedy))
     if not isinstance(about, dict) or about.get("format") != "rotor-explorer study":  # pyright: ignore[reportUnknownMemberType]
-        raise ValueError(f"{str(path)!r} is not a study of this program: give the --out DIR of a study")
+        raise ValueError(
+            f"{str(path)!r} is not a study of this program: give the --out DIR of a study"
+        )
     return about  # pyright: ignore[reportUnknownVariableType]
 
 
@@ -285,7 +321,9 @@ def _about(study: Study, provenance: StudyProvenance, known: dict[str, Any] | No
     record = {
         **describe(study, provenance),
         "axes": axes,
-        "sample": None if places.sample is None else [places.sample.method, places.sample.count, places.sample.seed],
+        "sample": None
+        if places.sample is None
+        else [places.sample.method, places.sample.count, places.sample.seed],
         "points": study.count,
         "chunk": study.chunk,
         "chunks": study.chunks,
@@ -307,5 +345,7 @@ def _hold(folder: Path) -> int | None:
         fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
     except OSError:
         os.close(handle)
-        raise ValueError(f"another run writes to {str(folder)!r}: wait for it, or give another --out DIR") from None
+        raise ValueError(
+            f"another run writes to {str(folder)!r}: wait for it, or give another --out DIR"
+        ) from None
     return handle

@@ -21,7 +21,9 @@ class ExecutorLost(RuntimeError):
     """The executor takes no more work; finished chunks are kept."""
 
     def __init__(self, reason: object) -> None:
-        super().__init__(f"the workers are gone ({reason}): finished chunks are kept; run the study again to continue")
+        super().__init__(
+            f"the workers are gone ({reason}): finished chunks are kept; run the study again to continue"
+        )
 
 
 @contextmanager
@@ -33,7 +35,8 @@ def dask_client(address: str) -> Generator[Any]:
     distributed = extra_module("distributed", "a study on a Dask cluster")
     for name in tuple(logging.root.manager.loggerDict):  # Dask sets the level of several of them.
         if name.partition(".")[0] in ("distributed", "tornado", "asyncio"):
-            logging.getLogger(name).setLevel(logging.CRITICAL)  # Errors are reported by this package.
+            # Errors are reported by this package.
+            logging.getLogger(name).setLevel(logging.CRITICAL)
     try:
         client = distributed.Client(address, timeout="10s")
     except (OSError, ValueError, TimeoutError) as error:
@@ -42,7 +45,9 @@ def dask_client(address: str) -> Generator[Any]:
             "and give the tcp://host:port that it prints"
         ) from None
     except TypeError:  # What Dask raises where a tls:// address has no certificates.
-        raise ValueError(f"{address!r} needs certificates: set distributed.comm.tls in Dask's configuration") from None
+        raise ValueError(
+            f"{address!r} needs certificates: set distributed.comm.tls in Dask's configuration"
+        ) from None
     try:
         yield client
     finally:
@@ -77,7 +82,9 @@ class ClusterWatch:
         elif self._since is None:
             if self._had or missing != _NO_WORKERS:
                 self._since = now
-                self._warn(f"{missing}; waiting {_WORKER_TIMEOUT / 60.0:g} min for a change, Ctrl-C ends the run now")
+                self._warn(
+                    f"{missing}; waiting {_WORKER_TIMEOUT / 60.0:g} min for a change, Ctrl-C ends the run now"
+                )
         elif now - self._since > _WORKER_TIMEOUT:
             raise ExecutorLost(missing)
 
@@ -88,7 +95,9 @@ class ClusterWatch:
     def _missing(self) -> str:
         try:
             return (
-                "" if self._client.sync(self._client.scheduler.ncores, callback_timeout=_REPLY_TIMEOUT) else _NO_WORKERS
+                ""
+                if self._client.sync(self._client.scheduler.ncores, callback_timeout=_REPLY_TIMEOUT)
+                else _NO_WORKERS
             )
         except (OSError, TimeoutError, RuntimeError, BrokenExecutor):
             return "the scheduler does not answer"

@@ -31,7 +31,16 @@ from rotor.optimisation.objective import at_condition, hover_and_cruise
 from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.search import Search, run_search
 from rotor.study.series import HUB_COLUMNS
-from rotor.study.study import ANSWER, FREQUENCIES, PLAIN, QUANTITIES, OptimumSettings, Study, Value, concept_with_breaks
+from rotor.study.study import (
+    ANSWER,
+    FREQUENCIES,
+    PLAIN,
+    QUANTITIES,
+    OptimumSettings,
+    Study,
+    Value,
+    concept_with_breaks,
+)
 from rotor.support.arrays import Array
 from rotor.support.assets import SHIPPED_ROTORS
 from rotor.support.user_input import lacks_means, raise_interrupt
@@ -74,7 +83,9 @@ class WarmStarts:
         if self._kind(values, hovering) != self._key or not self._trims:
             return None
         steps = self._places - self._place(values)
-        order: list[int] = np.argsort((steps**2).sum(axis=1), kind="stable")[: _wanted(steps.shape[1])].tolist()
+        order: list[int] = np.argsort((steps**2).sum(axis=1), kind="stable")[
+            : _wanted(steps.shape[1])
+        ].tolist()
         near = [self._trims[k] for k in order]
         return near[0].with_array(_weights(steps[order]) @ np.array([trim.array for trim in near]))
 
@@ -97,7 +108,9 @@ class WarmStarts:
         return (hovering, *(value for name, value in values.items() if name not in self._ranges))
 
     def _place(self, values: Mapping[str, Value]) -> Array:
-        return np.array([(float(values[name]) - low) / span for name, (low, span) in self._ranges.items()])
+        return np.array(
+            [(float(values[name]) - low) / span for name, (low, span) in self._ranges.items()]
+        )
 
 
 def _wanted(axes: int) -> int:
@@ -133,7 +146,9 @@ _GRID = ("elements", "azimuths")
 _MODELS = ("inflow", *SWITCHES, *OPTIONS)
 """Quantities that are fields of `Models`."""
 _ARGUMENTS = tuple(
-    name for name in QUANTITIES if name in ARGUMENTS and name not in ("rotor", "preset", *_MODELS, *_GRID)
+    name
+    for name in QUANTITIES
+    if name in ARGUMENTS and name not in ("rotor", "preset", *_MODELS, *_GRID)
 )
 """Quantities that are arguments of `make_design`."""
 
@@ -160,7 +175,8 @@ def design_of(values: Values, aircraft: Mapping[str, Aircraft]) -> Design:
     arguments |= {name: int(values[name]) for name in _GRID if name in values}
     return make_design(
         preset=preset,
-        rotor=aircraft.get(rotor) or shipped_aircraft(rotor),  # No path of the machine: results are passed on.
+        rotor=aircraft.get(rotor)
+        or shipped_aircraft(rotor),  # No path of the machine: results are passed on.
         **arguments,
         models=replace(models, **changed) if changed else models,
         stand=stand or None,
@@ -201,7 +217,9 @@ def trims_in_step(points: Sequence[Values], study: Study) -> Sequence[Analysis |
         return [None] * len(designs)
 
 
-def evaluate(values: Values, study: Study, warm: WarmStarts, in_step: Analysis | None = None) -> Row:
+def evaluate(
+    values: Values, study: Study, warm: WarmStarts, in_step: Analysis | None = None
+) -> Row:
     """The row of one point, started from earlier points; its trim and optimum are kept for later ones.
 
     in_step: its trim, where it is known.
@@ -221,7 +239,10 @@ def evaluate(values: Values, study: Study, warm: WarmStarts, in_step: Analysis |
             optimum = run_search(search)
             trim = analyse(optimum.design, warm.guess(values, hovering=design.hovering))
             solution = trim.solution
-            row |= _found(optimum, search) | {"status": optimum.status.value, "message": optimum.message}
+            row |= _found(optimum, search) | {
+                "status": optimum.status.value,
+                "message": optimum.message,
+            }
             if optimum.status is SearchStatus.CONVERGED and not solution.converged:
                 row |= {"status": solution.status.value, "message": solution.message}
             if optimum.best is not None:
@@ -237,7 +258,11 @@ def evaluate(values: Values, study: Study, warm: WarmStarts, in_step: Analysis |
         if lacks_means(error):  # Another worker or the next run computes the row.
             raise MemoryError(str(error)) from error
         bad, fault = isinstance(error, ValueError), f"{type(error).__name__}: {error}"
-        row |= {"status": "bad-input", "message": str(error)} if bad else {"status": "error", "message": fault}
+        row |= (
+            {"status": "bad-input", "message": str(error)}
+            if bad
+            else {"status": "error", "message": fault}
+        )
     together = 0.0 if in_step is None else in_step.solution.elapsed
     row["elapsed_ms"] = 1e3 * (time.perf_counter() - begin + together)
     return row
@@ -250,7 +275,9 @@ def _bladed(design: Design, values: Values) -> Design:
         raise ValueError("hover_share needs a search: add [optimum], or omit hover_share")
     if "concept" not in values:
         if given:
-            raise ValueError(f"{next(iter(given))} belongs to a twist concept: name it in [fixed] as concept = …")
+            raise ValueError(
+                f"{next(iter(given))} belongs to a twist concept: name it in [fixed] as concept = …"
+            )
         return design
     if "twist" in values:
         raise ValueError("twist and concept are both given: omit one")
@@ -267,19 +294,25 @@ def _search(design: Design, values: Values, searching: OptimumSettings, warm: Wa
     if "twist" in values:
         raise ValueError("an optimum searches for the twist: omit twist")
     if "concept" not in values:
-        raise ValueError('an optimum needs a twist concept: add for example concept = "two-segment" to [fixed]')
+        raise ValueError(
+            'an optimum needs a twist concept: add for example concept = "two-segment" to [fixed]'
+        )
     wide, held = concept_with_breaks(str(values["concept"]), _parameters(values))
     concept = restrict(wide, held) if held else wide
     share = values.get("hover_share")
     objective = (
         at_condition(design, searching.objective)
         if share is None
-        else hover_and_cruise(design, float(share), design.condition.advance_ratio, searching.objective)
+        else hover_and_cruise(
+            design, float(share), design.condition.advance_ratio, searching.objective
+        )
     )
     near = warm.optimum if warm.concept == _name(concept) else ()
     limits = Limits(rate=searching.rate, stalled=searching.stalled, index=searching.index)
     guesses = (near,) if near else ()
-    return Search(design, concept, objective, limits, searching.starts, searching.seed, guesses, band=False)
+    return Search(
+        design, concept, objective, limits, searching.starts, searching.seed, guesses, band=False
+    )
 
 
 def _name(concept: Concept) -> str:
@@ -329,7 +362,10 @@ def _answer(solution: Solution) -> Row:
     record = solution_record(solution)
     powers = {f"power_{part}_w": power for part, power in record["power_w"].items()}
     row = {name: value for name, value in {**record, **powers}.items() if name in ANSWER}
-    return row | {"caveats": ", ".join(caveat.name for caveat in solution.caveats), "passes": solution.passes}
+    return row | {
+        "caveats": ", ".join(caveat.name for caveat in solution.caveats),
+        "passes": solution.passes,
+    }
 
 
 def _vibration(trim: Analysis) -> Row:
@@ -342,4 +378,7 @@ def _vibration(trim: Analysis) -> Row:
     loads = hub_loads(trim, band=False)
     if loads is None:  # A caveat gives the reason.
         return row
-    return row | {"index_percent": loads.index, **dict(zip(HUB_COLUMNS, loads.amplitudes.values(), strict=True))}
+    return row | {
+        "index_percent": loads.index,
+        **dict(zip(HUB_COLUMNS, loads.amplitudes.values(), strict=True)),
+    }

@@ -76,8 +76,12 @@ class Results:
         code = np.zeros(self.rows, dtype=np.int64)
         for name in names:
             values = self.columns[name]
-            _, levels = np.unique(values if self.numeric(name) else values.astype(str), return_inverse=True)
-            code = np.unique(code * (int(levels.max(initial=0)) + 1) + levels, return_inverse=True)[1].astype(np.int64)
+            _, levels = np.unique(
+                values if self.numeric(name) else values.astype(str), return_inverse=True
+            )
+            code = np.unique(code * (int(levels.max(initial=0)) + 1) + levels, return_inverse=True)[
+                1
+            ].astype(np.int64)
         return code
 
 
@@ -86,7 +90,9 @@ def read_results(folder: str | Path) -> Results:
     about = read_about(folder)
     paths = sorted(Path(folder).glob("chunk-*.parquet"))
     if not paths:
-        raise ValueError(f"folder {str(folder)!r} has no finished chunk yet: let the study run longer")
+        raise ValueError(
+            f"folder {str(folder)!r} has no finished chunk yet: let the study run longer"
+        )
     arrow, _ = arrow_modules()
     tables = list[Any]()
     for path in paths:
@@ -99,7 +105,9 @@ def read_results(folder: str | Path) -> Results:
                 f"{path.name} of {str(folder)!r} is damaged ({shorten(str(error))}): run the study again for its points"
             ) from None
         if tables[-1].schema != tables[0].schema:
-            raise ValueError(f"{path.name} of {str(folder)!r} belongs to another study: move it elsewhere")
+            raise ValueError(
+                f"{path.name} of {str(folder)!r} belongs to another study: move it elsewhere"
+            )
     return Results(about, tuple(map(str, about["axes"])), columns_from(arrow.concat_tables(tables)))
 
 
@@ -121,14 +129,18 @@ def read_file(path: str | Path) -> Results:
         table = _read_chunk(Path(path)) if of_study else parquet.read_table(str(path))
         metadata: dict[bytes, bytes] = table.schema.metadata or {}
         stored: dict[str, Any] = {key.decode(): value.decode() for key, value in metadata.items()}
-        about: dict[str, Any] = stored | {key: json.loads(stored[key]) for key in ("axes", "given", "units")}
+        about: dict[str, Any] = stored | {
+            key: json.loads(stored[key]) for key in ("axes", "given", "units")
+        }
         results = Results(about, tuple(about["axes"]), columns_from(table))
         if not {"point", "status", *results.axes} <= results.columns.keys():
             raise KeyError(path)
     except MemoryError:  # pyarrow's ArrowMemoryError is one, too.
         raise
     except (OSError, KeyError, ValueError, arrow.ArrowException):
-        raise ValueError(f"{Path(path).name!r} is not a study result: give a chunk-….parquet of its folder") from None
+        raise ValueError(
+            f"{Path(path).name!r} is not a study result: give a chunk-….parquet of its folder"
+        ) from None
     return results
 
 
@@ -155,14 +167,20 @@ def design_of_row(results: Results, row: int) -> Design:
     given: dict[str, Any] = results.about.get("given", {})
     values: dict[str, Value] = {name: value for name, value in given.items() if name in PLAIN}
     values |= {name: results.columns[name][row] for name in results.axes if name in PLAIN}
-    varied = {name: column[row] for name, column in results.columns.items() if name in QUANTITIES and name not in PLAIN}
+    varied = {
+        name: column[row]
+        for name, column in results.columns.items()
+        if name in QUANTITIES and name not in PLAIN
+    }
     blade = {name: float(value) for name, value in varied.items() if math.isfinite(value)}
     design = design_of({name: value for name, value in values.items() if name != "concept"}, {})
     if "concept" not in values:
         return design
     concept, held = concept_with_breaks(str(values["concept"]), blade)
     if len(held) < len(concept.parameters):
-        raise ValueError(f"point {row} has no optimum, because its search failed: choose another point")
+        raise ValueError(
+            f"point {row} has no optimum, because its search failed: choose another point"
+        )
     return concept.apply(design, [held[parameter.name] for parameter in concept.parameters])
 
 
@@ -173,7 +191,9 @@ def design_at(place: str) -> Design:
     """
     path, _, number = place.rpartition(":")
     if not (path and number.isdecimal()):
-        raise ValueError(f"row {shorten(place)!r} is not understood: give a study's folder and a point, as DIR:17")
+        raise ValueError(
+            f"row {shorten(place)!r} is not understood: give a study's folder and a point, as DIR:17"
+        )
     results = read_file(path) if is_file(path) else read_results(path)
     row = results.row_of(int(number))
     if row is None:
@@ -232,7 +252,9 @@ def robust_best(results: Results, least: str, uncertain: tuple[str, ...]) -> Rob
         return None
     worst = np.full(designs, -math.inf)
     np.maximum.at(worst, design[known], values[known])
-    mean = np.bincount(design[known], weights=values[known], minlength=designs) / np.maximum(count, 1)
+    mean = np.bincount(design[known], weights=values[known], minlength=designs) / np.maximum(
+        count, 1
+    )
 
     def robust(of: Array) -> RobustDesign:
         at = int(np.argmin(np.where(whole, of, math.inf)))
@@ -264,7 +286,9 @@ def main_effects(results: Results, column: str) -> tuple[MainEffect, ...]:
     if known.sum() < 2 or float(np.var(values[known])) == 0.0:
         return ()
     shares = [
-        _effect(axis, *_levels(results.columns[axis][known], axis in results.sampled), values[known])
+        _effect(
+            axis, *_levels(results.columns[axis][known], axis in results.sampled), values[known]
+        )
         for axis in results.axes
     ]
     return tuple(sorted(shares, key=lambda effect: -effect.share))

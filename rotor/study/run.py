@@ -52,7 +52,9 @@ class ChunkRun:
         if not self.lost:
             return ""
         chunks = "1 chunk" if len(self.lost) == 1 else f"{len(self.lost)} chunks"
-        return f"{chunks} stopped their workers, perhaps for lack of memory: run the same study again"
+        return (
+            f"{chunks} stopped their workers, perhaps for lack of memory: run the same study again"
+        )
 
 
 def run_study(
@@ -110,7 +112,11 @@ def run_study(
                 notify(done, total)
 
         if missing:
-            with nullcontext(executor) if executor is not None else local_processes(file.study, workers) as pool:
+            with (
+                nullcontext(executor)
+                if executor is not None
+                else local_processes(file.study, workers) as pool
+            ):
                 ended = run_chunks(pool, store, missing, heard)
             if ended.lost:
                 raise RuntimeError(ended.sentence)
@@ -120,7 +126,9 @@ def run_study(
 def open_study_folder(file: StudyFile, out: str | Path | None) -> StudyFolder:
     """The folder of a study, by default named as its file. ValueError with one sentence where it cannot be used."""
     arrow_modules()  # Check before the folder is made.
-    provenance = StudyProvenance(package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest())
+    provenance = StudyProvenance(
+        package_version(), commit(), hashlib.sha256(file.text.encode()).hexdigest()
+    )
     return StudyFolder(out or Path(file.path).stem, file, provenance)
 
 
@@ -191,9 +199,13 @@ def run_chunks(
                     notify(done)
                 case BrokenExecutor() | MemoryError() if tries[chunk] < _MOST_TRIES:
                     submit(chunk)
-                case error if isinstance(error, BrokenExecutor | MemoryError) or type(error).__name__ == _GIVEN_UP:
+                case error if (
+                    isinstance(error, BrokenExecutor | MemoryError)
+                    or type(error).__name__ == _GIVEN_UP
+                ):
                     ended.lost.append(chunk)
-                case OSError() | CancelledError() as error:  # Dask's CommClosedError is among these.
+                # Dask's CommClosedError is among these.
+                case OSError() | CancelledError() as error:
                     raise ExecutorLost(type(error).__name__)
                 case error:
                     raise _explained(error, chunk)

@@ -43,7 +43,14 @@ PARTS = ("induced", "profile", "parasite", "climb", "tail")
 """Parts of the total, as in `PowerBudget`."""
 POWERS = ("total", "main_rotor", *PARTS)
 _CHANGES = ("change_percent", "change_band_percent", "sureness")
-SHARED_COLUMNS = ("rotor", "twist_deg_per_r", "pitch_per_rev", "twist_per_rev", "mass_kg", "altitude_m")
+SHARED_COLUMNS = (
+    "rotor",
+    "twist_deg_per_r",
+    "pitch_per_rev",
+    "twist_per_rev",
+    "mass_kg",
+    "altitude_m",
+)
 """Columns of a sweep that are the same in all rows of one rotor at one weight and altitude."""
 
 
@@ -93,11 +100,19 @@ class SweepTable:
 
         name: one of `labels`, or the SPEC of a twist that one of them alone has; ValueError for any other.
         """
-        labels = dict(zip(self.labels, (solution.design.twist.spec() for solution in self.solutions), strict=True))
+        labels = dict(
+            zip(
+                self.labels,
+                (solution.design.twist.spec() for solution in self.solutions),
+                strict=True,
+            )
+        )
         found = [label for label, spec in labels.items() if name in (label, spec)]
         if len(found) != 1:
             listed = "; ".join(labels)
-            raise ValueError(f"{name!r} is {'several' if found else 'none'} of the designs of this sweep: use {listed}")
+            raise ValueError(
+                f"{name!r} is {'several' if found else 'none'} of the designs of this sweep: use {listed}"
+            )
         return replace(self, reference=found[0])
 
     @property
@@ -105,17 +120,24 @@ class SweepTable:
         """Total power of each row relative to that of `reference` at the same condition [%]; None where one of the two
         is not there."""
         at = _values(self.solutions, self.axis)
-        powers = [solution.power.total if solution.converged else None for solution in self.solutions]
+        powers = [
+            solution.power.total if solution.converged else None for solution in self.solutions
+        ]
         rows = list(zip(self.labels, at, powers, strict=True))
         base = {place: power for label, place, power in rows if label == self.reference}
         pairs = ((power, base.get(place)) for _, place, power in rows)
-        return tuple(100.0 * (power / own - 1.0) if power is not None and own else None for power, own in pairs)
+        return tuple(
+            100.0 * (power / own - 1.0) if power is not None and own else None
+            for power, own in pairs
+        )
 
     @property
     def doubts(self) -> tuple[Doubt | None, ...]:
         """Uncertainty of each of `changes`; None if a row has no change or belongs to `reference`."""
         power = [one.converged and one.design.models.trim != "free-rotor" for one in self.solutions]
-        rows = list(zip(self.labels, _values(self.solutions, self.axis), power, self.solutions, strict=True))
+        rows = list(
+            zip(self.labels, _values(self.solutions, self.axis), power, self.solutions, strict=True)
+        )
         base = {place: one for label, place, has, one in rows if has and label == self.reference}
         return tuple(
             doubt(one, base[place]) if has and place in base and label != self.reference else None
@@ -138,9 +160,20 @@ class SweepTable:
         columns = self.columns
         none = [None] * len(self)
         changes, doubts = (self.changes, self.doubts) if self.reference else (none, none)
-        sure = [(None, None) if one is None else (one.change_band_percent, one.sureness) for one in doubts]
+        sure = [
+            (None, None) if one is None else (one.change_band_percent, one.sureness)
+            for one in doubts
+        ]
         return tuple(
-            tuple(map((_cells(solution, set(columns)) | dict(zip(_CHANGES, (change, *two), strict=True))).get, columns))
+            tuple(
+                map(
+                    (
+                        _cells(solution, set(columns))
+                        | dict(zip(_CHANGES, (change, *two), strict=True))
+                    ).get,
+                    columns,
+                )
+            )
             for solution, change, two in zip(self.solutions, changes, sure, strict=True)
         )
 
@@ -155,7 +188,10 @@ class SweepTable:
         write_whole(path, csv_text([self.columns, *self.rows]))
 
     def _repr_html_(self) -> str:
-        rows = ([format(cell, ".5g") if isinstance(cell, float) else cell for cell in row] for row in self.rows)
+        rows = (
+            [format(cell, ".5g") if isinstance(cell, float) else cell for cell in row]
+            for row in self.rows
+        )
         return table(map(Column, self.columns), rows).html()
 
     def to_dataframe(self) -> Any:
@@ -164,7 +200,10 @@ class SweepTable:
         Raises MissingExtra with the remedy where pandas is missing.
         """
         frame = extra_module("pandas", "a data frame").DataFrame(self.to_dict())
-        units = ((name, ARGUMENTS[name].unit if name in ARGUMENTS else unit_of(name)) for name in self.columns)
+        units = (
+            (name, ARGUMENTS[name].unit if name in ARGUMENTS else unit_of(name))
+            for name in self.columns
+        )
         frame.attrs["units"] = {name: unit for name, unit in units if unit}
         return frame
 
@@ -204,15 +243,26 @@ def sweep(
     asked = {"mu": mu, **others}
     axes: dict[str, Any] = {name: asked[name] for name in SWEPT if asked.get(name) is not None}
     if len(axes) != 1:
-        raise TypeError(f"a sweep over {' and '.join(axes) or 'nothing'}: give one of {', '.join(SWEPT)}")
+        raise TypeError(
+            f"a sweep over {' and '.join(axes) or 'nothing'}: give one of {', '.join(SWEPT)}"
+        )
     ((name, values),) = axes.items()
     if isinstance(values, str) or not hasattr(values, "__iter__"):
-        raise TypeError(f"{name} is {values!r}: give a list, for example {name}={list(SWEPT[name].examples)}")
+        raise TypeError(
+            f"{name} is {values!r}: give a list, for example {name}={list(SWEPT[name].examples)}"
+        )
     several, steps = hasattr(design, "__iter__") and not isinstance(design, str), list(values)
-    designs = [require_design(item) for item in cast(Iterable[Design], design if several else (design,))]
+    designs = [
+        require_design(item) for item in cast(Iterable[Design], design if several else (design,))
+    ]
     rows = [[design.at(**cast(Any, {name: step})) for step in steps] for design in designs]
-    near = [start if start and points and start.design.rotor == points[0].rotor else None for points in rows]
-    first = solve_many([points[0] for points, given in zip(rows, near, strict=True) if points and given is None])
+    near = [
+        start if start and points and start.design.rotor == points[0].rotor else None
+        for points in rows
+    ]
+    first = solve_many(
+        [points[0] for points, given in zip(rows, near, strict=True) if points and given is None]
+    )
     solutions: list[Solution] = []
     for points, last in zip(rows, near, strict=True):
         for k, point in enumerate(points):
@@ -264,7 +314,9 @@ def schedule(
         True
     """
     if isinstance(mu, str) or not hasattr(mu, "__iter__"):
-        raise TypeError(f"mu is {mu!r}: give a list of advance ratios, for example mu={list(SWEPT['mu'].examples)}")
+        raise TypeError(
+            f"mu is {mu!r}: give a list of advance ratios, for example mu={list(SWEPT['mu'].examples)}"
+        )
     if isinstance(concepts, str):
         raise TypeError(f"concepts is {concepts!r}: give a list, concepts=[{concepts!r}]")
     design, speeds = require_design(design), list(mu)
@@ -305,25 +357,39 @@ def plot_power(*tables: SweepTable, ax: Any = None) -> Any:
         shown = [(part, solutions, part) for part in POWERS if climbs or part != "climb"]
     else:
         shown = [(name, curve, "total") for name, curve in curves.items()]
-    lines = tuple(Line(name, _values(curve, axis), _kilowatts(curve, part), dots=True) for name, curve, part in shown)
+    lines = tuple(
+        Line(name, _values(curve, axis), _kilowatts(curve, part), dots=True)
+        for name, curve, part in shown
+    )
     return draw_chart(Chart("", Axis(axis.axis_title), Axis("Power [kW]"), lines), ax)
 
 
 def _change_chart(table: SweepTable) -> Chart:
     at = _values(table.solutions, table.axis)
     points = zip(table.labels, at, table.changes, strict=True)
-    rows = [(label, place, math.nan if change is None else change) for label, place, change in points]
+    rows = [
+        (label, place, math.nan if change is None else change) for label, place, change in points
+    ]
     lines = tuple(
-        Line(name, [x for one, x, _ in rows if one == name], [y for one, _, y in rows if one == name], dots=True)
+        Line(
+            name,
+            [x for one, x, _ in rows if one == name],
+            [y for one, _, y in rows if one == name],
+            dots=True,
+        )
         for name in dict.fromkeys(table.labels)
     )
-    return Chart("", Axis(table.axis.axis_title), Axis(f"Power relative to {table.reference} [%]"), lines)
+    return Chart(
+        "", Axis(table.axis.axis_title), Axis(f"Power relative to {table.reference} [%]"), lines
+    )
 
 
 def _label(design: Design) -> str:
     """Rotor, twist, and what of pitch and twist follows the azimuth."""
     waves = {"pitch": design.pitch_per_rev, "active twist": design.linear_active_twist}
-    parts = [f"{name} {harmonics_text(harmonics)}" for name, harmonics in waves.items() if harmonics]
+    parts = [
+        f"{name} {harmonics_text(harmonics)}" for name, harmonics in waves.items() if harmonics
+    ]
     return ", ".join([design.rotor.name, design.twist.spec(), *parts])
 
 
@@ -332,7 +398,11 @@ def _swept(solutions: Sequence[Solution]) -> Quantity:
     rotors: dict[str, list[Solution]] = {}
     for solution in solutions:  # Another rotor has its own mass.
         rotors.setdefault(solution.design.rotor.name, []).append(solution)
-    varied = (row for row in NUMBERS.values() if any(len(set(_values(rotor, row))) > 1 for rotor in rotors.values()))
+    varied = (
+        row
+        for row in NUMBERS.values()
+        if any(len(set(_values(rotor, row))) > 1 for rotor in rotors.values())
+    )
     return next(varied, NUMBERS["mu"])
 
 
@@ -343,7 +413,10 @@ def _values(solutions: Sequence[Solution], row: Quantity) -> list[float]:
 
 
 def _kilowatts(solutions: Sequence[Solution], part: str) -> list[float]:
-    return [getattr(solution.power, part) / 1e3 if solution.converged else math.nan for solution in solutions]
+    return [
+        getattr(solution.power, part) / 1e3 if solution.converged else math.nan
+        for solution in solutions
+    ]
 
 
 def sweep_columns(designs: Sequence[Design]) -> tuple[str, ...]:
@@ -361,7 +434,8 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
     design, power = solution.design, solution.last_power
     reason = why_no_hub_loads(design) if design.models.bending else None
     root = design.rotor.blade.root_cutout
-    ends = design.twist([root, 1.0])  # Their difference over the radius between is the rate of a linear twist.
+    # Their difference over the radius between is the rate of a linear twist.
+    ends = design.twist([root, 1.0])
     return {
         "rotor": design.rotor.name,
         "twist": design.twist.spec(),
@@ -371,17 +445,32 @@ def _cells(solution: Solution, columns: set[str]) -> dict[str, float | str | Non
         "speed_kt": design.airspeed / KNOT,
         **design.numbers,
         "status": solution.status.value,
-        **({f"power_{part}_w": getattr(power, part) for part in POWERS} if solution.converged else {}),
+        **(
+            {f"power_{part}_w": getattr(power, part) for part in POWERS}
+            if solution.converged
+            else {}
+        ),
         "caveats": ", ".join(caveat.name for caveat in solution.caveats),
         "message": solution.message if reason is None else f"{solution.message} {reason.sentence}",
-        **(dict(zip(VIBRATION, _vibration(solution), strict=True)) if VIBRATION[0] in columns else {}),
+        **(
+            dict(zip(VIBRATION, _vibration(solution), strict=True))
+            if VIBRATION[0] in columns
+            else {}
+        ),
     }
 
 
 def _vibration(solution: Solution) -> tuple[float | None, ...]:
     """`VIBRATION`; None for what there is not."""
-    loads, frequencies = hub_loads(solution) if solution.converged else None, solution.blade_frequencies
-    modes = (None,) * 3 if frequencies is None else (frequencies.flap[1], frequencies.lag[0], frequencies.torsion[0])
+    loads, frequencies = (
+        hub_loads(solution) if solution.converged else None,
+        solution.blade_frequencies,
+    )
+    modes = (
+        (None,) * 3
+        if frequencies is None
+        else (frequencies.flap[1], frequencies.lag[0], frequencies.torsion[0])
+    )
     if loads is None:
         return (*(None for _ in range(3 + len(LOADS))), *modes)
     return (loads.index, *(loads.band or (None, None)), *loads.amplitudes.values(), *modes)
@@ -428,7 +517,9 @@ class WaterfallStep:
         return None if change is None else sum(change.values())
 
 
-def waterfall_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> Iterator[WaterfallStep]:
+def waterfall_steps(
+    design: Design, order: Sequence[str] = tuple(SWITCHES)
+) -> Iterator[WaterfallStep]:
     """All switches on one after another, then each one off alone, each step trimmed when requested.
 
     The design's own switches have no effect. A step that does not trim is skipped: the next is compared with the last
@@ -450,7 +541,9 @@ def waterfall_steps(design: Design, order: Sequence[str] = tuple(SWITCHES)) -> I
 def _step(name: str | None, trim: Solution, against: PowerBudget | None) -> WaterfallStep:
     switch, note = (None, "") if name is None else (SWITCHES[name], no_effect(trim.design, name))
     budget = trim.power if trim.converged else None
-    return WaterfallStep(switch, trim.design, budget, trim.message, trim.hub_moment.size, against, note)
+    return WaterfallStep(
+        switch, trim.design, budget, trim.message, trim.hub_moment.size, against, note
+    )
 
 
 @dataclass(frozen=True, eq=False)

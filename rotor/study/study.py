@@ -68,13 +68,19 @@ def concept_with_breaks(name: str, given: dict[str, float]) -> tuple[Concept, di
     Raises ValueError for a concept or a parameter that there is not.
     """
     concept = find_concept(name)
-    if name in _WIDER and any(label not in [parameter.label for parameter in concept.parameters] for label in given):
+    if name in _WIDER and any(
+        label not in [parameter.label for parameter in concept.parameters] for label in given
+    ):
         concept = _WIDER[name]
     known = {parameter.label: parameter for parameter in concept.parameters}
     for label in given:
         if label not in known:
-            raise ValueError(f"{label} is not a parameter of the concept {name}: it has {', '.join(known)}")
-    return concept, {known[label].name: known[label].from_shown(value) for label, value in given.items()}
+            raise ValueError(
+                f"{label} is not a parameter of the concept {name}: it has {', '.join(known)}"
+            )
+    return concept, {
+        known[label].name: known[label].from_shown(value) for label, value in given.items()
+    }
 
 
 @dataclass(frozen=True)
@@ -107,7 +113,9 @@ class StudyPoints:
 
     @property
     def count(self) -> int:
-        return math.prod(len(axis.values) for axis in self.axes) * (self.sample.count if self.sample else 1)
+        return math.prod(len(axis.values) for axis in self.axes) * (
+            self.sample.count if self.sample else 1
+        )
 
     @property
     def sampled(self) -> dict[str, tuple[float, float]]:
@@ -118,11 +126,15 @@ class StudyPoints:
     def ranges(self) -> dict[str, tuple[float, float]]:
         """Low and high of every axis of numbers."""
         numbers = [axis for axis in self.axes if not axis.textual]
-        return {axis.name: (float(min(axis.values)), float(max(axis.values))) for axis in numbers} | self.sampled
+        return {
+            axis.name: (float(min(axis.values)), float(max(axis.values))) for axis in numbers
+        } | self.sampled
 
     def at(self, first: int, last: int) -> list[dict[str, float | str]]:
         """Values of the points first … last − 1 in the order of computation."""
-        digits = _walk(np.arange(first, last, dtype=np.int64), tuple(size for _, size in self._order))
+        digits = _walk(
+            np.arange(first, last, dtype=np.int64), tuple(size for _, size in self._order)
+        )
         columns: dict[str, list[float | str]] = {}
         for (axis, _), digit in zip(self._order, digits, strict=True):
             if isinstance(axis, StudyAxis):
@@ -136,10 +148,17 @@ class StudyPoints:
     def _order(self) -> list[tuple[StudyAxis | StudySample, int]]:
         """Axes from slow to fast: texts, then axes by increasing number of values."""
         ranked: list[tuple[float, StudyAxis | StudySample, int]] = [
-            (0.0 if axis.textual else len(axis.values), axis, len(axis.values)) for axis in self.axes
+            (0.0 if axis.textual else len(axis.values), axis, len(axis.values))
+            for axis in self.axes
         ]
         if self.sample is not None:
-            ranked.append((self.sample.count ** (1.0 / len(self.sample.ranges)), self.sample, self.sample.count))
+            ranked.append(
+                (
+                    self.sample.count ** (1.0 / len(self.sample.ranges)),
+                    self.sample,
+                    self.sample.count,
+                )
+            )
         return [(axis, size) for _, axis, size in sorted(ranked, key=lambda ranking: ranking[0])]
 
 
@@ -257,7 +276,9 @@ class Study:
     @property
     def concepts(self) -> tuple[str, ...]:
         """The twist concepts that occur."""
-        values = {name: (value,) for name, value in self.given} | {axis.name: axis.values for axis in self.points.axes}
+        values = {name: (value,) for name, value in self.given} | {
+            axis.name: axis.values for axis in self.points.axes
+        }
         return tuple(map(str, values.get("concept", ())))
 
     @property
@@ -268,14 +289,20 @@ class Study:
     @property
     def fingerprint(self) -> str:
         """Equal for studies whose points have the same results."""
-        return fingerprint((self.points, sorted(self.given), self.optimum, self.chunk, self.aircraft))
+        return fingerprint(
+            (self.points, sorted(self.given), self.optimum, self.chunk, self.aircraft)
+        )
 
 
-def check_uncertain(uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: tuple[str, ...]) -> None:
+def check_uncertain(
+    uncertain: tuple[str, ...], axes: tuple[str, ...], sampled: tuple[str, ...]
+) -> None:
     """ValueError, with one sentence, for uncertain axes over which no design can be the robust best."""
     for name in uncertain:
         if name not in axes:
-            raise ValueError(f"axis {name!r} is not an axis of this study: use some of {', '.join(axes)}")
+            raise ValueError(
+                f"axis {name!r} is not an axis of this study: use some of {', '.join(axes)}"
+            )
     if set(axes) <= set(uncertain):
         raise ValueError("every axis is uncertain, so there are no designs to compare: omit one")
     fixed = [name for name in sampled if name not in uncertain]
@@ -308,7 +335,17 @@ class StudyColumn:
 
 
 _REPORTED = tuple(name for name, row in UNUSUAL.items() if row.reported)
-_FLIGHT = ("rotor", "mu", "speed_m_s", "mass_kg", "altitude_m", *_REPORTED, "preset", "inflow", "twist")
+_FLIGHT = (
+    "rotor",
+    "mu",
+    "speed_m_s",
+    "mass_kg",
+    "altitude_m",
+    *_REPORTED,
+    "preset",
+    "inflow",
+    "twist",
+)
 _HEAD = ("point", "status", "message", *_FLIGHT)
 ANSWER = (
     *(f"power_{part}_w" for part in POWERS), "ct", "cp", "ct_over_sigma", "lambda0", "collective_deg", "cyclic_1c_deg",
@@ -318,7 +355,14 @@ ANSWER = (
 """Results of a trim."""
 _VIBRATION = ("index_percent", *HUB_COLUMNS, *(f"{mode}_per_rev" for mode in FREQUENCIES))
 """Columns with `bending`: amplitudes at N_b/rev, without the band over inflow models, which takes three more trims."""
-_SAVED = ("mean_power_w", "hover_power_w", "baseline_power_w", "saving_percent", "saving_doubt_percent", "sureness")
+_SAVED = (
+    "mean_power_w",
+    "hover_power_w",
+    "baseline_power_w",
+    "saving_percent",
+    "saving_doubt_percent",
+    "sureness",
+)
 _SEARCH = (*_SAVED, "local_minima", "active", "evaluations")
 """`mean_power_w` is what the search made small; `hover_power_w` is there with hover_share."""
 _COUNTS = ("point", "passes", "local_minima", "evaluations")
@@ -328,7 +372,9 @@ _WORDS = ("status", "message", "caveats", "active", "sureness")
 def columns_of(study: Study) -> tuple[StudyColumn, ...]:
     """All columns of a study's table: point, status, condition, values set or found, results."""
     given = dict.fromkeys(study.parameters, 0.0)
-    searched = [concept_with_breaks(name, given)[0] for name in study.concepts] if study.optimum else []
+    searched = (
+        [concept_with_breaks(name, given)[0] for name in study.concepts] if study.optimum else []
+    )
     parameters = [parameter.label for concept in searched for parameter in concept.parameters]
     first = [name for name in (*study.names, *parameters) if name not in _SWITCHES]
     vibration = _VIBRATION if dict(study.given).get("bending") else ()

@@ -14,7 +14,16 @@ from msgspec import Meta, field
 
 from rotor.design.aircraft import Aircraft
 from rotor.design.twist import inline_spec
-from rotor.files.declared import BY_KIND, FileTable, Number, Refusal, Text, convert, naming, read_toml
+from rotor.files.declared import (
+    BY_KIND,
+    FileTable,
+    Number,
+    Refusal,
+    Text,
+    convert,
+    naming,
+    read_toml,
+)
 from rotor.files.make_design import make_design
 from rotor.files.rotor_file import find_aircraft
 from rotor.optimisation.objective import Quantity as Objective
@@ -35,7 +44,14 @@ from rotor.study.study import (
     default_chunk,
 )
 from rotor.support.assets import SHIPPED_ROTORS, asset_path
-from rotor.support.user_input import did_you_mean, is_file, parse_range, read_text, refusing, shorten
+from rotor.support.user_input import (
+    did_you_mean,
+    is_file,
+    parse_range,
+    read_text,
+    refusing,
+    shorten,
+)
 
 _MANY = 10**10
 _STEEPEST_TWIST = 100.0
@@ -72,12 +88,17 @@ class _Optimum(FileTable, frozen=True, kw_only=True):
 
     def __post_init__(self) -> None:
         if self.rate_deg and self.rate_deg[0] >= self.rate_deg[1]:
-            raise Refusal(f"rate_deg is {list(self.rate_deg)}: give the lower one first, as [-20, 0]", "rate_deg")
+            raise Refusal(
+                f"rate_deg is {list(self.rate_deg)}: give the lower one first, as [-20, 0]",
+                "rate_deg",
+            )
 
     def settings(self) -> OptimumSettings:
         rate = self.rate_deg and (math.radians(self.rate_deg[0]), math.radians(self.rate_deg[1]))
         stalled = None if self.stalled_percent is None else self.stalled_percent / 100.0
-        return OptimumSettings(self.starts, self.seed, self.objective, rate, stalled, self.index_percent)
+        return OptimumSettings(
+            self.starts, self.seed, self.objective, rate, stalled, self.index_percent
+        )
 
 
 class _Show(FileTable, frozen=True, kw_only=True):
@@ -110,21 +131,31 @@ class Reader:
         top = self._top
         axes, ranges = self._axes()
         if top.sample and not ranges:
-            raise Refusal("[sample] has no range to sample: give an axis as { low = …, high = … }", "sample")
+            raise Refusal(
+                "[sample] has no range to sample: give an axis as { low = …, high = … }", "sample"
+            )
         if ranges and not top.sample:
             key = ranges[0][0]
             raise Refusal(f"axis {key} is a range: add [sample] with method and count", "axes", key)
-        sample = top.sample and StudySample(top.sample.method, top.sample.count, top.sample.seed, tuple(ranges))
+        sample = top.sample and StudySample(
+            top.sample.method, top.sample.count, top.sample.seed, tuple(ranges)
+        )
         places = StudyPoints(axes, sample)
         if not axes and not ranges:
-            raise Refusal("the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]", "axes")
+            raise Refusal(
+                "the study has no axes: add for example mu = [0.1, 0.2, 0.3] to [axes]", "axes"
+            )
         given = self._given({axis.name for axis in axes} | {name for name, _, _ in ranges})
         if places.count > _MANY:
-            raise Refusal(f"the study has {places.count:.3g} points: keep below {_MANY:.0e}", "axes")
+            raise Refusal(
+                f"the study has {places.count:.3g} points: keep below {_MANY:.0e}", "axes"
+            )
         searching = top.optimum and top.optimum.settings()
         chunk = top.chunk or default_chunk(places.count, search=searching is not None)
         aircraft, title = tuple(self._aircraft.items()), top.title or Path(self._name).stem
-        study = Study(title, places, tuple(given.items()), searching, chunk, ShowSettings(), aircraft)
+        study = Study(
+            title, places, tuple(given.items()), searching, chunk, ShowSettings(), aircraft
+        )
         self._try_points(study)
         return replace(study, show=self._aims(study))
 
@@ -145,7 +176,11 @@ class Reader:
                 if len(set(axis)) < len(axis):
                     raise Refusal(f"axis {key} holds a value twice: remove one", "axes", key)
                 numeric = QUANTITIES[key].numeric
-                values: Any = map(float, axis) if numeric else (self._portable("axes", key, text) for text in axis)
+                values: Any = (
+                    map(float, axis)
+                    if numeric
+                    else (self._portable("axes", key, text) for text in axis)
+                )
                 axes.append(StudyAxis(key, tuple(values)))
         return tuple(axes), ranges
 
@@ -154,7 +189,9 @@ class Reader:
         quantity, one = QUANTITIES[key], _kind(key)
         if isinstance(given, str) and quantity.numeric:
             try:
-                given = [int(value) if value.is_integer() else value for value in parse_range(given)]
+                given = [
+                    int(value) if value.is_integer() else value for value in parse_range(given)
+                ]
             except ValueError as error:
                 raise Refusal(f"axis {key}: {error}", "axes", key) from None
         kind: Any = Annotated[tuple[one, ...], Meta(min_length=1)]
@@ -164,13 +201,23 @@ class Reader:
         quantity = QUANTITIES.get(key)
         if quantity is None:
             axes, rows = section == "axes", QUANTITIES.items()
-            names = [name for name, row in rows if (row.kind != "switch" if axes else row.section == section)]
+            names = [
+                name
+                for name, row in rows
+                if (row.kind != "switch" if axes else row.section == section)
+            ]
             says = f"{key!r} is not a quantity of [{section}]{did_you_mean(key, names) or ':'}"
             raise Refusal(f"{says} use one of {', '.join(names)}", section, key)
         if section == "axes" and quantity.kind == "switch":
-            raise Refusal(f"{key} cannot be an axis: set it in [models] and make two studies", section, key)
+            raise Refusal(
+                f"{key} cannot be an axis: set it in [models] and make two studies", section, key
+            )
         if section not in ("axes", quantity.section):
-            raise Refusal(f"{key} does not belong in [{section}]: move it to [{quantity.section}]", section, key)
+            raise Refusal(
+                f"{key} does not belong in [{section}]: move it to [{quantity.section}]",
+                section,
+                key,
+            )
 
     def _portable(self, section: str, key: str, text: str) -> str:
         """The value without files, for other machines: reads a rotor file, inlines a twist table."""
@@ -190,7 +237,9 @@ class Reader:
             for key, written in values.items():
                 self._check_known(section, key)
                 if key in varied:
-                    raise Refusal(f"{key} is an axis and also in [{section}]: remove one", section, key)
+                    raise Refusal(
+                        f"{key} is an axis and also in [{section}]: remove one", section, key
+                    )
                 quantity = QUANTITIES[key]
                 value = convert(written, _kind(key), section, key)
                 if isinstance(value, str):
@@ -203,7 +252,9 @@ class Reader:
         numbers = [column.name for column in columns_of(study) if column.kind == "number"]
         if show.least not in numbers:
             hint = did_you_mean(show.least, numbers) or ":"
-            raise Refusal(f"least is {show.least!r}{hint} use {' or '.join(numbers)}", "show", "least")
+            raise Refusal(
+                f"least is {show.least!r}{hint} use {' or '.join(numbers)}", "show", "least"
+            )
         uncertain = (show.uncertain,) if isinstance(show.uncertain, str) else show.uncertain
         try:
             check_uncertain(uncertain, study.axis_names, tuple(study.points.sampled))
@@ -220,20 +271,32 @@ class Reader:
         for axis in study.points.axes:
             ends = axis.values if axis.textual else (min(axis.values), max(axis.values))
             tried.extend((axis.name, {axis.name: value}) for value in ends)
-        tried.extend((name, {name: value}) for name, ends in study.points.sampled.items() for value in ends)
+        tried.extend(
+            (name, {name: value}) for name, ends in study.points.sampled.items() for value in ends
+        )
         for key, point in tried:
             try:
                 check_point({**shared, **first, **point}, study)
             except ValueError as error:
-                section, at = ("axes", key) if key else self._culprit(str(error), {**shared, **first}, study)
+                section, at = (
+                    ("axes", key) if key else self._culprit(str(error), {**shared, **first}, study)
+                )
                 raise Refusal(str(error), section, *([at] if at else [])) from None
 
-    def _culprit(self, sentence: str, values: dict[str, Value], study: Study) -> tuple[str, str | None]:
+    def _culprit(
+        self, sentence: str, values: dict[str, Value], study: Study
+    ) -> tuple[str, str | None]:
         """The key named in an error message, else the key whose removal makes the point valid."""
-        keys = [(section, key) for section in ("fixed", "models", "axes") for key in getattr(self._top, section)]
+        keys = [
+            (section, key)
+            for section in ("fixed", "models", "axes")
+            for key in getattr(self._top, section)
+        ]
         for section, key in keys:
             value = values[key]
-            if re.search(rf"\b{re.escape(key)}\b", sentence) or (isinstance(value, str) and repr(value) in sentence):
+            if re.search(rf"\b{re.escape(key)}\b", sentence) or (
+                isinstance(value, str) and repr(value) in sentence
+            ):
                 return section, key
         for section, key in keys:
             with suppress(ValueError):

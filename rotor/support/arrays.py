@@ -53,6 +53,11 @@ class ShortRepr:
     """A dataclass that shows its arrays by their shapes."""
 
     def __repr__(self) -> str:
-        values: list[tuple[str, Any]] = [(f.name, getattr(self, f.name)) for f in fields(cast(Any, self)) if f.repr]
-        shown = (f"{name} {value.shape}" if hasattr(value, "shape") else f"{name}={value!r}" for name, value in values)
+        values: list[tuple[str, Any]] = [
+            (f.name, getattr(self, f.name)) for f in fields(cast(Any, self)) if f.repr
+        ]
+        shown = (
+            f"{name} {value.shape}" if hasattr(value, "shape") else f"{name}={value!r}"
+            for name, value in values
+        )
         return f"{type(self).__name__}({', '.join(shown)})"

@@ -33,7 +33,9 @@ def asset_path(name: str) -> Path:
         path = folder / name
         if path.exists():
             return path
-    raise FileNotFoundError(f"data file {name!r} is in neither {_PACKAGED} nor {_CHECKOUT}: reinstall rotor-explorer")
+    raise FileNotFoundError(
+        f"data file {name!r} is in neither {_PACKAGED} nor {_CHECKOUT}: reinstall rotor-explorer"
+    )
 
 
 @cache
@@ -64,6 +66,8 @@ def commit() -> str | None:
         return None
     command = ["git", "-C", str(_CHECKOUT_ROOT), "describe", "--always", "--dirty=+", "--exclude=*"]
     try:
-        return subprocess.run(command, capture_output=True, text=True, timeout=5.0, check=True).stdout.strip()
+        return subprocess.run(
+            command, capture_output=True, text=True, timeout=5.0, check=True
+        ).stdout.strip()
     except (OSError, subprocess.SubprocessError):
         return None

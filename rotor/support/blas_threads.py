@@ -60,10 +60,13 @@ def keep_one_blas_thread() -> None:
 @cache
 def _libraries() -> tuple[list[Any], list[Any]]:
     """The BLAS libraries that NumPy and SciPy have loaded: with one pool for the process, and with one per thread."""
-    importlib.import_module("scipy.linalg")  # The controller finds only the libraries that are loaded by now.
+    # The controller finds only the libraries that are loaded by now.
+    importlib.import_module("scipy.linalg")
     controller: Any = ThreadpoolController()
     libraries: list[Any] = controller.select(user_api="blas").lib_controllers
-    per_thread = [library for library in libraries if getattr(library, "threading_layer", "") == "openmp"]
+    per_thread = [
+        library for library in libraries if getattr(library, "threading_layer", "") == "openmp"
+    ]
     return [library for library in libraries if library not in per_thread], per_thread
 
 

@@ -144,7 +144,9 @@ def bytes_kept() -> int:
 def limit_caches(size: int) -> None:
     """Let all caches of this process keep so many bytes together; ValueError below `LEAST`."""
     if size < LEAST:
-        raise ValueError(f"{size / 2**20:.4g} MB is too little for caches: give at least {LEAST // 2**20} MB")
+        raise ValueError(
+            f"{size / 2**20:.4g} MB is too little for caches: give at least {LEAST // 2**20} MB"
+        )
     with _kept.whole():
         _kept.limit = size
         _kept.fit()
@@ -162,7 +164,8 @@ def bytes_cache(function: Callable[_P, _T]) -> Callable[_P, _T]:
         if result is None:
             made = _Result(known, key, function(*args, **kwargs))
             with _kept.lock:
-                result = known.setdefault(key, made)  # Another thread was faster: all share its result.
+                # Another thread was faster: all share its result.
+                result = known.setdefault(key, made)
                 _kept.use(result)
         else:
             _kept.use(result)

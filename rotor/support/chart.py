@@ -24,7 +24,17 @@ Colour: TypeAlias = int | str | None
 """Place in `COLOURS`, a colour as CSS writes it, or None: the next of `COLOURS` after the ink."""
 AZIMUTH = (0.0, 90.0, 180.0, 270.0, 360.0)
 """Ticks of a chart over azimuth [°]."""
-COLOURS = ("currentColor", "#1c7ed6", "#e8590c", "#0ca678", "#be4bdb", "#e8a100", "#1098ad", "#a0694b", "#868e96")
+COLOURS = (
+    "currentColor",
+    "#1c7ed6",
+    "#e8590c",
+    "#0ca678",
+    "#be4bdb",
+    "#e8a100",
+    "#1098ad",
+    "#a0694b",
+    "#868e96",
+)
 """Ink first, for what was measured, then ours; each can be read on white and on black."""
 INK = 0
 _DASHES = "6 4"
@@ -157,7 +167,11 @@ class Chart:
             return scaled(scale.range[0], scale.log), scaled(scale.range[1], scale.log)
         if scale.names:
             return len(scale.names) - 0.5, -0.5
-        known = [scaled(value, scale.log) for value in (*self._values(axis), *scale.ticks) if math.isfinite(value)]
+        known = [
+            scaled(value, scale.log)
+            for value in (*self._values(axis), *scale.ticks)
+            if math.isfinite(value)
+        ]
         low, high = (min(known), max(known)) if known else (0.0, 1.0)
         if scale.ticks:
             return low, high
@@ -272,8 +286,14 @@ class DrawnChart(Struct, frozen=True, omit_defaults=True):
 def drawn_chart(chart: Chart) -> DrawnChart:
     """The chart with its ticks, the ends of its axes and its colours."""
     spans = ("x", chart.span("x")), ("y", chart.span("y"))
-    digits = {axis: max(0, 4 - math.floor(math.log10(abs(end - start) or 1.0))) for axis, (start, end) in spans}
-    series = [_drawn_series(one, colour, digits) for one, colour in zip(chart.series, chart.colours(), strict=True)]
+    digits = {
+        axis: max(0, 4 - math.floor(math.log10(abs(end - start) or 1.0)))
+        for axis, (start, end) in spans
+    }
+    series = [
+        _drawn_series(one, colour, digits)
+        for one, colour in zip(chart.series, chart.colours(), strict=True)
+    ]
     x, y = _drawn_axis(chart, "x", 5), _drawn_axis(chart, "y", 4 if chart.y.whole is None else 2)
     return DrawnChart(chart.title, x, y, series, chart.value, chart.note, chart.rules)
 
@@ -283,18 +303,33 @@ def _drawn_axis(chart: Chart, axis: Literal["x", "y"], about: int) -> DrawnAxis:
     low, high = chart.span(axis)
     ends, ticks, two = (float(low), float(high)), chart.ticks(axis, about), len(scale.words) == 2
     whole = scale.whole
-    told = None if whole is None else DrawnScale(whole, [(at, tick_text(at)) for at in round_ticks(*whole, about)])
+    told = (
+        None
+        if whole is None
+        else DrawnScale(whole, [(at, tick_text(at)) for at in round_ticks(*whole, about)])
+    )
     return DrawnAxis(ends, ticks, label=scale.label, log=scale.log, ends=two, whole=told)
 
 
-def _drawn_series(series: Series, colour: str, digits: dict[str, int]) -> DrawnLine | DrawnPoints | DrawnBand:
+def _drawn_series(
+    series: Series, colour: str, digits: dict[str, int]
+) -> DrawnLine | DrawnPoints | DrawnBand:
     x = _rounded(series.x, digits["x"])
     if isinstance(series, Band):
         low, high = _rounded(series.low, digits["y"]), _rounded(series.high, digits["y"])
         return DrawnBand(series.label, colour, x, low, high)
     y = _rounded(series.y, digits["y"])
     if isinstance(series, Line):
-        return DrawnLine(series.label, colour, x, y, series.width, dash_lengths(series), series.dots, series.filled)
+        return DrawnLine(
+            series.label,
+            colour,
+            x,
+            y,
+            series.width,
+            dash_lengths(series),
+            series.dots,
+            series.filled,
+        )
     return DrawnPoints(
         series.label,
         colour,
@@ -334,22 +369,32 @@ def _ticks(span: Span, about: int, log: bool) -> list[float]:
 def round_up(step: float) -> float:
     """The round number 1, 2 or 5 × 10ⁿ nearest above `step`."""
     power = 10.0 ** math.floor(math.log10(step))
-    return power * next(factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= step * (1.0 - 1e-9))
+    return power * next(
+        factor for factor in (1.0, 2.0, 5.0, 10.0) if factor * power >= step * (1.0 - 1e-9)
+    )
 
 
 def round_ticks(low: float, high: float, about: int) -> list[float]:
     """At most `about` + 1 round numbers within an axis, zero among them where it is inside."""
     step = round_up((high - low) / about)
-    return [round(k * step, 12) for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)]
+    return [
+        round(k * step, 12)
+        for k in range(math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9) + 1)
+    ]
 
 
 def bar_ticks(low: float, high: float) -> list[tuple[float, str]]:
     """Place [% of its length] and text of round numbers along a colour bar."""
-    return [(round(100.0 * (at - low) / (high - low), 2), tick_text(at)) for at in round_ticks(low, high, 5)]
+    return [
+        (round(100.0 * (at - low) / (high - low), 2), tick_text(at))
+        for at in round_ticks(low, high, 5)
+    ]
 
 
 def tick_text(value: float, log: bool = False) -> str:
     """A tick's number with a true minus sign and no needless digits; a power of ten on a logarithmic axis."""
     if log and not 0.1 <= value <= 1e4:
-        return "10" + f"{round(math.log10(value))}".translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+        return "10" + f"{round(math.log10(value))}".translate(
+            str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+        )
     return f"{round(value, 6) + 0.0:.6g}".replace("-", "−")

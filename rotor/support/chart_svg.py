@@ -10,7 +10,18 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rotor.support.chart import Axis, Band, Chart, Line, Points, Series, Span, Values, dash_lengths, scaled
+from rotor.support.chart import (
+    Axis,
+    Band,
+    Chart,
+    Line,
+    Points,
+    Series,
+    Span,
+    Values,
+    dash_lengths,
+    scaled,
+)
 from rotor.support.markup import Attribute, Content, Markup, group, plain, tag
 
 Place = tuple[float, float]
@@ -55,7 +66,11 @@ def svg(chart: Chart, inline: bool = False, size: Place = (_WIDE, _HIGH)) -> Mar
     full = size[0]
     y_ticks = chart.ticks("y", 6)
     key, lines = _key(chart, full)
-    left = 12.0 + _LETTER * max((len(word) for _, word in y_ticks), default=0) + (0.0 if chart.y.names else 1.5 * _SIZE)
+    left = (
+        12.0
+        + _LETTER * max((len(word) for _, word in y_ticks), default=0)
+        + (0.0 if chart.y.names else 1.5 * _SIZE)
+    )
     top, high = 16.0 + 18.0 * lines, max(size[1] - 86.0, 21.0 * len(chart.y.names))
     axes = _Axes(chart, chart.span("x"), chart.span("y"), left, top, full - left - 16.0, high)
     bottom, right = top + high, left + axes.wide
@@ -79,9 +94,16 @@ def svg(chart: Chart, inline: bool = False, size: Place = (_WIDE, _HIGH)) -> Mar
          for rule in chart.rules],
     )  # fmt: skip
     lines = tag("path", d="".join(grid), fill="none", stroke="currentColor", stroke_opacity=0.14)
-    frame = tag("path", d=f"M{left:.1f},{top:.1f}V{bottom:.1f}H{right:.1f}", fill="none", stroke="currentColor")
+    frame = tag(
+        "path",
+        d=f"M{left:.1f},{top:.1f}V{bottom:.1f}H{right:.1f}",
+        fill="none",
+        stroke="currentColor",
+    )
     text = tag("g", words, fill="currentColor")
-    return _whole((full, bottom + 46.0), chart.title, inline, lines, frame, text, key, _cut_off(axes, drawn))
+    return _whole(
+        (full, bottom + 46.0), chart.title, inline, lines, frame, text, key, _cut_off(axes, drawn)
+    )
 
 
 def small_svg(chart: Chart) -> Markup:
@@ -95,11 +117,21 @@ def small_svg(chart: Chart) -> Markup:
 
 def _whole(size: Place, title: str, inline: bool, *content: Content) -> Markup:
     style = None if inline else tag("style", Markup(_OWN_COLOURS))
-    look: dict[str, Attribute] = {"font_family": "system-ui,sans-serif", "font_size": _SIZE, "aria_label": title}
+    look: dict[str, Attribute] = {
+        "font_family": "system-ui,sans-serif",
+        "font_size": _SIZE,
+        "aria_label": title,
+    }
     box = f"0 0 {size[0]:.0f} {size[1]:.0f}"
-    return tag("svg", style, *content, xmlns=None if inline else _NAMESPACE, viewBox=box, role="img", **look) + Markup(
-        "\n"
-    )
+    return tag(
+        "svg",
+        style,
+        *content,
+        xmlns=None if inline else _NAMESPACE,
+        viewBox=box,
+        role="img",
+        **look,
+    ) + Markup("\n")
 
 
 def _cut_off(axes: _Axes, drawn: Markup) -> Markup:
@@ -109,7 +141,13 @@ def _cut_off(axes: _Axes, drawn: Markup) -> Markup:
     left, top, wide, high = axes.left, axes.top - 5.0, axes.wide, axes.high + 10.0
     box = f"{left:.1f} {top:.1f} {wide:.1f} {high:.1f}"
     return tag(
-        "svg", drawn, x=plain(left, 1), y=plain(top, 1), width=plain(wide, 1), height=plain(high, 1), viewBox=box
+        "svg",
+        drawn,
+        x=plain(left, 1),
+        y=plain(top, 1),
+        width=plain(wide, 1),
+        height=plain(high, 1),
+        viewBox=box,
     )
 
 
@@ -119,29 +157,65 @@ def _rule(axes: _Axes, at: float, along: str) -> str:
     return f"M{axes.left:.1f},{axes.y(at):.1f}h{axes.wide:.1f}"
 
 
-def _drawn(axes: _Axes, series: Series, colour: str, size: float = 1.0, thick: float = 1.0) -> Markup:
+def _drawn(
+    axes: _Axes, series: Series, colour: str, size: float = 1.0, thick: float = 1.0
+) -> Markup:
     """A series; `size` of its marks and `thick` of its lines beside what they are in a large drawing."""
     if isinstance(series, Band):
         named = bool(axes.chart.y.names)
-        low, high = (axes.places(*((y, series.x) if named else (series.x, y))) for y in (series.low, series.high))
+        low, high = (
+            axes.places(*((y, series.x) if named else (series.x, y)))
+            for y in (series.low, series.high)
+        )
         if len(low) == 1:  # A band of one point has no area.
-            return tag("path", d=_path([*low, *high]), stroke=colour, stroke_width=5, stroke_opacity=0.3)
-        known = [pair for pair in zip(low, high, strict=True) if all(map(math.isfinite, (*pair[0], *pair[1])))]
+            return tag(
+                "path", d=_path([*low, *high]), stroke=colour, stroke_width=5, stroke_opacity=0.3
+            )
+        known = [
+            pair
+            for pair in zip(low, high, strict=True)
+            if all(map(math.isfinite, (*pair[0], *pair[1])))
+        ]
         around = [*(pair[0] for pair in known), *(pair[1] for pair in reversed(known))]
         return tag("path", d=_path(around), fill=colour, fill_opacity=0.16) if known else Markup()
     places = axes.places(series.x, series.y)
     known = [place for place in places if all(map(math.isfinite, place))]
     if isinstance(series, Line):
-        look: dict[str, Attribute] = {"stroke_width": thick * series.width, "stroke_linejoin": "round"}
-        line = tag("path", d=_path(places), stroke=colour, fill="none", **look, stroke_dasharray=dash_lengths(series))
+        look: dict[str, Attribute] = {
+            "stroke_width": thick * series.width,
+            "stroke_linejoin": "round",
+        }
+        line = tag(
+            "path",
+            d=_path(places),
+            stroke=colour,
+            fill="none",
+            **look,
+            stroke_dasharray=dash_lengths(series),
+        )
         return group(line, _dots(known, 2.8 * size, colour) if series.dots else None)
     parts: list[Markup] = []
     if series.scatter:
-        bars = "".join(_bar(axes, *point) for point in zip(series.x, series.y, series.scatter, strict=True))
-        parts.append(tag("path", d=bars, stroke=colour, fill="none", stroke_width=2 * thick, stroke_opacity=0.45))
+        bars = "".join(
+            _bar(axes, *point) for point in zip(series.x, series.y, series.scatter, strict=True)
+        )
+        parts.append(
+            tag(
+                "path",
+                d=bars,
+                stroke=colour,
+                fill="none",
+                stroke_width=2 * thick,
+                stroke_opacity=0.45,
+            )
+        )
     radius = series.size * size
     if size == 1.0:
-        parts += [_point_name(place, name, series) for place, name in zip(places, series.names, strict=False) if name]
+        parts += [
+            _point_name(place, name, series)
+            for place, name in zip(places, series.names, strict=False)
+            if name
+        ]
     if series.mark == "cross":
         d = f"l{2 * radius:g},{2 * radius:g}m0,{-2 * radius:g}l{-2 * radius:g},{2 * radius:g}"
         crosses = "".join(f"M{x - radius:.1f},{y - radius:.1f}{d}" for x, y in known)
@@ -219,7 +293,11 @@ def _text(x: float, y: float, words: str, anchor: str = "middle") -> Markup:
     parts: list[Content] = []
     for part in re.split(r"\b([CU]_\w)", words):
         if re.fullmatch(r"[CU]_\w", part):
-            parts += [part[0], tag("tspan", part[2], dy=3, font_size=9), tag("tspan", "\u200b", dy=-3)]
+            parts += [
+                part[0],
+                tag("tspan", part[2], dy=3, font_size=9),
+                tag("tspan", "\u200b", dy=-3),
+            ]
         else:
             parts.append(part)
     return tag("text", *parts, x=plain(x, 1), y=plain(y, 1), text_anchor=anchor)

@@ -132,14 +132,18 @@ def _digest(file: str) -> bytes:
 def _named(function: Any) -> list[Any]:
     """What the names in a function may mean: in its file, and in the modules among these."""
     names, space = function.__code__.co_names, function.__globals__
-    places: list[dict[str, Any]] = [space, *(vars(space[n]) for n in names if isinstance(space.get(n), ModuleType))]
+    places: list[dict[str, Any]] = [
+        space,
+        *(vars(space[n]) for n in names if isinstance(space.get(n), ModuleType)),
+    ]
     return [place.get(name) for place in places for name in names]
 
 
 def _called(function: Any, known: dict[Any, None]) -> dict[Any, None]:
     """All compiled functions that one calls, directly or through others, in the order of the names in it."""
     for item in _named(function):
-        callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)  # `_defn`: of an intrinsic.
+        # `_defn`: of an intrinsic.
+        callee = getattr(item, "py_func", None) or getattr(item, "_defn", None)
         if callee is not None and callee not in known:
             known[callee] = None
             _called(callee, known)
@@ -167,7 +171,10 @@ class _Watch(event.Listener):
         """The words on what is being compiled; empty where nothing is."""
         if not self.open:
             return ""
-        ready, all_of_them = sum(bool(one.overloads) or self.is_kept(one) for one in self.kernels), len(self.kernels)
+        ready, all_of_them = (
+            sum(bool(one.overloads) or self.is_kept(one) for one in self.kernels),
+            len(self.kernels),
+        )
         return f"Compiling, {self._often}: {min(ready + 1, all_of_them)} of {all_of_them}"
 
     @property
@@ -259,12 +266,21 @@ def compiled_in_parallel(compile_them: Callable[[], None], *modules: str) -> Gen
     can be, or on one core.
     """
     kernels = [kernel for kernel in _watch.kernels if kernel.py_func.__module__ in modules]
-    if _watch.unkept or (os.cpu_count() or 1) < 2 or any(one.overloads or _watch.is_kept(one) for one in kernels):
+    if (
+        _watch.unkept
+        or (os.cpu_count() or 1) < 2
+        or any(one.overloads or _watch.is_kept(one) for one in kernels)
+    ):
         yield
         return
     program = f"from {compile_them.__module__} import {compile_them.__name__} as go; go()"
-    with subprocess.Popen([sys.executable, "-c", program], stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL) as process:
-        _second_process.functions, _second_process.process = frozenset(kernel.py_func for kernel in kernels), process
+    with subprocess.Popen(
+        [sys.executable, "-c", program], stdin=DEVNULL, stdout=DEVNULL, stderr=DEVNULL
+    ) as process:
+        _second_process.functions, _second_process.process = (
+            frozenset(kernel.py_func for kernel in kernels),
+            process,
+        )
         try:
             yield
         except BaseException:
@@ -289,7 +305,8 @@ def compiled(**options: Any) -> Callable[[Callable[..., Any]], Any]:
             _digests[function.__code__.co_filename] = _digest(function.__code__.co_filename)
         compiled: Any = numba.njit(nogil=True, **options)(function)  # pyright: ignore[reportUnknownVariableType, reportUnknownMemberType]
         try:
-            compiled._cache = _RepairingCache(function)  # What `cache=True` does, with numba's own class.
+            # What `cache=True` does, with numba's own class.
+            compiled._cache = _RepairingCache(function)
         except Exception as error:  # No folder to write to, or a source without a file.
             _log.debug("no place to keep %s (%s)", function.__name__, error)
             _watch.unkept = True

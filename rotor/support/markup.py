@@ -89,11 +89,19 @@ def _attribute(name: str, value: Attribute) -> str:
         return ""
     if value is True:
         return f" {name}"
-    text = (str(value) if isinstance(value, str) else plain(value)).replace("&", "&amp;").replace("<", "&lt;")
+    text = (
+        (str(value) if isinstance(value, str) else plain(value))
+        .replace("&", "&amp;")
+        .replace("<", "&lt;")
+    )
     quote = "'" if '"' in text and "'" not in text else '"'  # JSON stays readable, and short.
     return f" {name}={quote}{text.replace(quote, '&quot;')}{quote}"
 
 
 def plain(number: float, digits: int = 2) -> str:
     """A number as short as it can be to so many digits."""
-    return f"{round(number, digits) + 0.0:.{digits}f}".rstrip("0").rstrip(".") if digits else f"{number:.0f}"
+    return (
+        f"{round(number, digits) + 0.0:.{digits}f}".rstrip("0").rstrip(".")
+        if digits
+        else f"{number:.0f}"
+    )

@@ -44,7 +44,13 @@ def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:
         ink = "0.2" if colour == "currentColor" else colour
         if isinstance(series, Band):
             if len(series.x) == 1 and not named:  # A band of one point has no area.
-                ax.plot((series.x[0], series.x[0]), (series.low[0], series.high[0]), color=ink, alpha=0.3, linewidth=5)
+                ax.plot(
+                    (series.x[0], series.x[0]),
+                    (series.low[0], series.high[0]),
+                    color=ink,
+                    alpha=0.3,
+                    linewidth=5,
+                )
                 continue
             fill = ax.fill_betweenx if named else ax.fill_between
             fill(series.x, series.low, series.high, color=ink, alpha=0.15, linewidth=0)
@@ -55,12 +61,18 @@ def draw_chart(chart: Chart, ax: Any = None, *, legend: bool = True) -> Any:
                 {"marker": "o", "markersize": 3} if series.dots else {}
             )
         else:
-            look |= {"linestyle": "none", "marker": _MARKERS[series.mark], "markersize": series.size}
+            look |= {
+                "linestyle": "none",
+                "marker": _MARKERS[series.mark],
+                "markersize": series.size,
+            }
             for x, y, name in zip(series.x, series.y, series.names, strict=False):
                 ax.annotate(name, (x, y), **_NAME_PLACES[series.name_place])
             if series.scatter:
                 error = {"xerr" if named else "yerr": series.scatter}
-                ax.errorbar(series.x, series.y, fmt="none", ecolor=ink, alpha=0.45, capsize=2, **error)
+                ax.errorbar(
+                    series.x, series.y, fmt="none", ecolor=ink, alpha=0.45, capsize=2, **error
+                )
         ax.plot(series.x, series.y, **look)
     for name, axis in (("x", chart.x), ("y", chart.y)):
         getattr(ax, f"set_{name}label")(axis.label)

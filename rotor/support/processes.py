@@ -116,7 +116,12 @@ class Job:
     """One task in the pool; of two that wait the one of lower urgency number runs first, then the older one."""
 
     def __init__(
-        self, number: int, task: Task, on_event: Callable[[JobEvent], None], limit: float | None, urgency: int
+        self,
+        number: int,
+        task: Task,
+        on_event: Callable[[JobEvent], None],
+        limit: float | None,
+        urgency: int,
     ) -> None:
         self.number, self.task, self.limit, self.urgency = number, task, limit, urgency
         self.stopping = threading.Event()
@@ -162,7 +167,11 @@ class Processes(Executor):
                 self._add_worker()
 
     def begin(
-        self, task: Task, on_event: Callable[[JobEvent], None], limit: float | None = None, urgency: int = 0
+        self,
+        task: Task,
+        on_event: Callable[[JobEvent], None],
+        limit: float | None = None,
+        urgency: int = 0,
     ) -> Job:
         """Queue a task. `on_event` is called from threads of the pool and must be quick. Lower `urgency` goes first.
 
@@ -209,7 +218,9 @@ class Processes(Executor):
         self._queue(job)
         return future
 
-    def stream(self, tasks: Sequence[tuple[Work, tuple[Any, ...]]], deliver: Tell, stop: Stop | None = None) -> bool:
+    def stream(
+        self, tasks: Sequence[tuple[Work, tuple[Any, ...]]], deliver: Tell, stop: Stop | None = None
+    ) -> bool:
         """Run tasks and deliver their items in this thread as they come; True when stopped before the end.
 
         `stop` is called several times a second. Raises WorkerLost, and what a task raises.
@@ -260,7 +271,9 @@ class Processes(Executor):
     def next(self, worker: "_Worker") -> Job | None:
         """The next job of an idle thread; None when none came in time, or ever will."""
         with self._change:
-            self._change.wait_for(lambda: self._waiting or self._closed, _IDLE_CHECK_S if self.prepare else None)
+            self._change.wait_for(
+                lambda: self._waiting or self._closed, _IDLE_CHECK_S if self.prepare else None
+            )
             job = self._waiting.pop(0) if self._waiting else None
             worker.idle = job is None
         if job is not None:
@@ -339,9 +352,13 @@ class _Worker(threading.Thread):
                 self._do(job)
             except (OSError, EOFError):
                 self._drop()
-                sentence = "The worker process ended unexpectedly; a new one is starting. Press again."
+                sentence = (
+                    "The worker process ended unexpectedly; a new one is starting. Press again."
+                )
                 job.tell(JobFailed(sentence, WorkerLost()))
-            except Exception as error:  # A task that cannot be pickled, for example: the thread must go on.
+            except (
+                Exception
+            ) as error:  # A task that cannot be pickled, for example: the thread must go on.
                 job.tell(JobFailed(f"The work could not be done: {error}", error))
             self.idle = True
         self._drop()
@@ -405,7 +422,9 @@ class _Worker(threading.Thread):
                     job.tell(JobEnded(reply.value, stopped=asked is not None, late=late))
                     return
                 case "error":
-                    sentence = f"The work failed ({str(reply.value) or type(reply.value).__name__})."
+                    sentence = (
+                        f"The work failed ({str(reply.value) or type(reply.value).__name__})."
+                    )
                     if isinstance(reply.value, MemoryError):
                         sentence = "This needs more memory than is free here: end other programs, then press again."
                     job.tell(JobFailed(sentence, reply.value))
@@ -418,7 +437,10 @@ class _Worker(threading.Thread):
 
 
 def run_tasks(
-    pool: Processes | None, tasks: Sequence[tuple[Work, tuple[Any, ...]]], deliver: Tell, stop: Stop | None
+    pool: Processes | None,
+    tasks: Sequence[tuple[Work, tuple[Any, ...]]],
+    deliver: Tell,
+    stop: Stop | None,
 ) -> bool:
     """Run tasks as `Processes.stream`; here, one after the other, where there is no pool."""
     if pool is not None:

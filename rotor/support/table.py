@@ -38,13 +38,21 @@ class Table:
 
     def text(self) -> str:
         """Aligned columns below their headings; words at the end that are too long for the terminal go on below."""
-        columns = [(k, column.head, column.shown) for k, column in enumerate(self.columns) if column.head is not None]
-        cells = [[head, *(_formatted(row[k], shown) for row in self.rows)] for k, head, shown in columns]
+        columns = [
+            (k, column.head, column.shown)
+            for k, column in enumerate(self.columns)
+            if column.head is not None
+        ]
+        cells = [
+            [head, *(_formatted(row[k], shown) for row in self.rows)] for k, head, shown in columns
+        ]
         sides = [str.ljust if shown == LEFT else str.rjust for _, _, shown in columns]
         widths = [max(map(len, texts)) for texts in cells]
         lines: list[str] = []
         for texts in zip(*cells, strict=True):
-            aligned = (side(text, width) for side, text, width in zip(sides, texts, widths, strict=True))
+            aligned = (
+                side(text, width) for side, text, width in zip(sides, texts, widths, strict=True)
+            )
             line = "  ".join(aligned).rstrip()
             lines.append(wrapped(line, "    ") if texts[-1] and sides[-1] is str.ljust else line)
         return "\n".join(lines)
@@ -53,7 +61,10 @@ class Table:
         """The table for a notebook."""
         shown = [(k, column) for k, column in enumerate(self.columns) if column.head is not None]
         heads = tag("tr", [tag("th", column.head) for _, column in shown])
-        rows = (tag("tr", [tag("td", _formatted(row[k], _number(column))) for k, column in shown]) for row in self.rows)
+        rows = (
+            tag("tr", [tag("td", _formatted(row[k], _number(column))) for k, column in shown])
+            for row in self.rows
+        )
         return tag("table", tag("thead", heads), tag("tbody", rows))
 
     def csv(self) -> str:
@@ -63,7 +74,10 @@ class Table:
         return csv_text([[column.key for _, column in kept], *rows])
 
     def records(self) -> list[dict[str, CellValue]]:
-        return [{c.key: cell for c, cell in zip(self.columns, row, strict=True) if c.key} for row in self.rows]
+        return [
+            {c.key: cell for c, cell in zip(self.columns, row, strict=True) if c.key}
+            for row in self.rows
+        ]
 
     def write(self, path: str) -> None:
         """Write the CSV wholly or not at all; the path - is stdout. ValueError where that fails."""

@@ -34,7 +34,10 @@ _PROGRAMS = ("-m", "rotor")
 
 def stop_while_read() -> None:
     """Let Ctrl-C end the command without a traceback while its modules are still read."""
-    if Path((sys.argv or [""])[0]).name in _PROGRAMS and threading.current_thread() is threading.main_thread():
+    if (
+        Path((sys.argv or [""])[0]).name in _PROGRAMS
+        and threading.current_thread() is threading.main_thread()
+    ):
         signal.signal(signal.SIGINT, _leave)
 
 
@@ -61,7 +64,9 @@ class _HelpFormatter(argparse.HelpFormatter):
 
     def _fill_text(self, text: str, width: int, indent: str) -> str:
         lines = text.splitlines()
-        return "\n".join(line if line[:3] == "   " else textwrap.fill(indent + line, width) for line in lines)
+        return "\n".join(
+            line if line[:3] == "   " else textwrap.fill(indent + line, width) for line in lines
+        )
 
     def _split_lines(self, text: str, width: int) -> list[str]:
         return textwrap.wrap(" ".join(text.split()), width, break_on_hyphens=False)
@@ -73,13 +78,20 @@ class OneLineParser(argparse.ArgumentParser):
     `examples`: what each shows, and the words after the program's name. They follow the flags in the help.
     """
 
-    def __init__(self, *args: Any, examples: Sequence[tuple[str, str]] = (), **options: Any) -> None:
-        super().__init__(*args, **{"formatter_class": _HelpFormatter, "allow_abbrev": False, **options})
+    def __init__(
+        self, *args: Any, examples: Sequence[tuple[str, str]] = (), **options: Any
+    ) -> None:
+        super().__init__(
+            *args, **{"formatter_class": _HelpFormatter, "allow_abbrev": False, **options}
+        )
         self.examples = examples
         if examples:
             lines = (f" {shown}:\n   {self.prog} {words}".rstrip() for shown, words in examples)
-            self.epilog = "\n".join(("examples:", *lines, *(("", self.epilog) if self.epilog else ())))
-        self._negative_number_matcher = re.compile(r"^-\.?\d")  # Also lists and ranges: --rate-deg -20,0.
+            self.epilog = "\n".join(
+                ("examples:", *lines, *(("", self.epilog) if self.epilog else ()))
+            )
+        # Also lists and ranges: --rate-deg -20,0.
+        self._negative_number_matcher = re.compile(r"^-\.?\d")
 
     def parse_known_args(self, args: Any = None, namespace: Any = None) -> tuple[Any, list[str]]:  # pyright: ignore[reportIncompatibleMethodOverride]
         """Parse as argparse does; a value that is given but empty is an error, not the default."""
@@ -92,7 +104,9 @@ class OneLineParser(argparse.ArgumentParser):
             if flag.startswith("--"):
                 name = flag.partition("=")[0]
                 known = self._option_string_actions.keys() - {"--help"}
-                self.error(f"{name} is not a flag of this command{did_you_mean(name, sorted(known))}")
+                self.error(
+                    f"{name} is not a flag of this command{did_you_mean(name, sorted(known))}"
+                )
         return options, rest
 
     def _check_value(self, action: argparse.Action, value: Any) -> None:
@@ -100,7 +114,9 @@ class OneLineParser(argparse.ArgumentParser):
             known = [str(choice) for choice in action.choices]
             what = "command" if action.dest == "command" else "value"
             hint = did_you_mean(str(value), known) or ":"
-            raise argparse.ArgumentError(action, f"{str(value)!r} is not a known {what}{hint} use {', '.join(known)}")
+            raise argparse.ArgumentError(
+                action, f"{str(value)!r} is not a known {what}{hint} use {', '.join(known)}"
+            )
 
     def error(self, message: str) -> NoReturn:
         """One sentence for `run_command`."""
@@ -133,7 +149,9 @@ class StopSignal:
 
 def wrapped(text: str, indent: str = "") -> str:
     """A sentence in lines that fit the terminal, or 100 letters; all but the first begin with `indent`."""
-    return textwrap.fill(text, _columns(), subsequent_indent=indent, break_long_words=False, break_on_hyphens=False)
+    return textwrap.fill(
+        text, _columns(), subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+    )
 
 
 def run_command(program: str, run: Callable[[], int]) -> int:

@@ -50,7 +50,8 @@ def raise_interrupt(error: BaseException) -> None:
 def lacks_means(error: BaseException) -> bool:
     """Whether memory, disk, files or processes of this machine ran out: with more of them the work may succeed."""
     return any(
-        isinstance(one, (MemoryError, BrokenExecutor)) or (isinstance(one, OSError) and one.errno in _MEANS)
+        isinstance(one, (MemoryError, BrokenExecutor))
+        or (isinstance(one, OSError) and one.errno in _MEANS)
         for one in causes(error)
     )
 
@@ -68,7 +69,9 @@ def did_you_mean(name: object, known: Iterable[str]) -> str:
     matter."""
     plain, given = {_plain(one): one for one in known}, _plain(name)
     begin = [one for one in plain if one.startswith(given)] if len(given) > 2 else []
-    close = difflib.get_close_matches(given, begin or list(plain), n=1, cutoff=0.0 if begin else 0.6)
+    close = difflib.get_close_matches(
+        given, begin or list(plain), n=1, cutoff=0.0 if begin else 0.6
+    )
     return f"; did you mean {plain[close[0]]!r}?" if close else ""
 
 
@@ -85,16 +88,22 @@ def _plain(name: object) -> str:
 
 def shorten(text: str, most: int = _WORD) -> str:
     """The text in one line of at most `most` characters: its beginning and its end where it is longer."""
-    text = " ".join(text[: 20 * most].split() + text[-most:].split() if len(text) > 21 * most else text.split())
+    text = " ".join(
+        text[: 20 * most].split() + text[-most:].split() if len(text) > 21 * most else text.split()
+    )
     if len(text) <= most:
         return text
     end = (most - len(_SKIPPED)) // 3
-    return f"{text[: most - len(_SKIPPED) - end].rstrip()}{_SKIPPED}{text[len(text) - end :].lstrip()}"
+    return (
+        f"{text[: most - len(_SKIPPED) - end].rstrip()}{_SKIPPED}{text[len(text) - end :].lstrip()}"
+    )
 
 
 def brief(sentence: object) -> str:
     """A message that may repeat an input at length, as one line without it: long words and the middle are left out."""
-    return shorten(re.sub(rf"\S{{{2 * _WORD},}}", lambda word: shorten(word[0]), str(sentence)), _SENTENCE)
+    return shorten(
+        re.sub(rf"\S{{{2 * _WORD},}}", lambda word: shorten(word[0]), str(sentence)), _SENTENCE
+    )
 
 
 @contextmanager
@@ -112,7 +121,9 @@ def refusing(what: str, remedy: str) -> Generator[None]:
         raise ValueError(f"{what} is nested too deeply or too large: {remedy}") from None
     except Exception as error:
         _log.debug("%s cannot be used", what, exc_info=True)
-        raise ValueError(brief(f"{what} cannot be used ({type(error).__name__}: {error}): {remedy}")) from None
+        raise ValueError(
+            brief(f"{what} cannot be used ({type(error).__name__}: {error}): {remedy}")
+        ) from None
 
 
 def read_bytes(path: str | Path, what: str, remedy: str, most: int = LARGEST) -> bytes:
@@ -125,10 +136,14 @@ def read_bytes(path: str | Path, what: str, remedy: str, most: int = LARGEST) ->
         raise ValueError(f"{what} has an empty name: {remedy}")
     try:
         # Opening a pipe without a writer would wait for one.
-        handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
+        handle = os.open(
+            path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+        )
         with os.fdopen(handle, "rb") as file:
             if not stat.S_ISREG(os.fstat(handle).st_mode):
-                raise ValueError(f"{what} {name} is a device or a pipe, not a file: save it as a file first")
+                raise ValueError(
+                    f"{what} {name} is a device or a pipe, not a file: save it as a file first"
+                )
             content = file.read(most + 1)
     except FileNotFoundError:
         raise ValueError(f"{what} {name} does not exist: {remedy}") from None
@@ -150,7 +165,9 @@ def read_text(path: str | Path, what: str, remedy: str, most: int = LARGEST) -> 
     try:
         return text_of(content)
     except UnicodeDecodeError:
-        raise ValueError(f"{what} {shorten(str(path))!r} cannot be read (not text): {remedy}") from None
+        raise ValueError(
+            f"{what} {shorten(str(path))!r} cannot be read (not text): {remedy}"
+        ) from None
 
 
 def text_of(content: bytes) -> str:
@@ -188,7 +205,9 @@ def make_folder(path: str | Path) -> Path:
             with suppress(OSError, ValueError):
                 empty.rmdir()
         reason = error.strerror if isinstance(error, OSError) else error
-        raise ValueError(f"cannot write to {str(path)!r} ({reason}): give a writable folder") from None
+        raise ValueError(
+            f"cannot write to {str(path)!r} ({reason}): give a writable folder"
+        ) from None
 
 
 def check_writable(path: str | Path) -> None:
@@ -224,7 +243,9 @@ def write_whole(path: str | Path, content: str | bytes) -> None:
         path.write_bytes(data)
         return
     try:
-        handle, part = tempfile.mkstemp(dir=path.parent, prefix=f".{path.name[:40]}.", suffix=".part")
+        handle, part = tempfile.mkstemp(
+            dir=path.parent, prefix=f".{path.name[:40]}.", suffix=".part"
+        )
     except OSError as error:
         raise OSError(error.errno, error.strerror, str(path)) from None
     try:
@@ -246,7 +267,9 @@ def write_output(path: str | Path, content: str | bytes) -> None:
     try:
         write_whole(path, content)
     except OSError as error:
-        raise ValueError(f"cannot write {str(path)!r} ({error.strerror}): give a writable file") from None
+        raise ValueError(
+            f"cannot write {str(path)!r} ({error.strerror}): give a writable file"
+        ) from None
 
 
 def csv_text(rows: Iterable[Iterable[object]], heading: str = "") -> str:
@@ -279,12 +302,20 @@ def parse_range(text: str) -> list[float]:
             first = last = step = 0.0
             values = [float(item) for item in text.split(",")]
     except (ValueError, OverflowError, ZeroDivisionError):
-        raise ValueError(f"range {text!r} is not understood: write a:b:step, for example 0.05:0.40:0.05") from None
+        raise ValueError(
+            f"range {text!r} is not understood: write a:b:step, for example 0.05:0.40:0.05"
+        ) from None
     if step * (last - first) < 0.0:
         backward, reversed_ends = f"{first:g}:{last:g}:{-step:g}", f"{last:g}:{first:g}:{step:g}"
-        raise ValueError(f"range {text!r} never reaches its end: write {backward} or {reversed_ends}")
+        raise ValueError(
+            f"range {text!r} never reaches its end: write {backward} or {reversed_ends}"
+        )
     if len(values) > _MOST_VALUES:
-        raise ValueError(f"range {text!r} has more than {_MOST_VALUES:,} values: take a larger step")
+        raise ValueError(
+            f"range {text!r} has more than {_MOST_VALUES:,} values: take a larger step"
+        )
     if not all(map(math.isfinite, values)):
-        raise ValueError(f"range {text!r} holds a value that is not a number: write for example 0.05:0.40:0.05")
+        raise ValueError(
+            f"range {text!r} holds a value that is not a number: write for example 0.05:0.40:0.05"
+        )
     return [round(value, 12) for value in values]

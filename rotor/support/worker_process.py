@@ -39,7 +39,9 @@ class Task(Protocol):
 
 def start_process(work: Callable[..., None], arguments: tuple[Any, ...], name: str) -> SpawnProcess:
     """Start work(*arguments), a function of an importable module, in a daemonic process of that name."""
-    process = get_context("spawn").Process(target=_work, args=(work, arguments), name=name, daemon=True)
+    process = get_context("spawn").Process(
+        target=_work, args=(work, arguments), name=name, daemon=True
+    )
     with _one_at_a_time, _inherited():
         process.start()
     return process

@@ -65,7 +65,9 @@ class PitchGradient(ShortRepr):
         For `linear`, `quadratic`, `segments` and `spline` laws; TypeError for others.
         """
         if not isinstance(law, SpecTwist) or type(law).slopes is SpecTwist.slopes:
-            raise TypeError(f"twist {law.spec()} has no numbers to change: give linear, quadratic, segments or spline")
+            raise TypeError(
+                f"twist {law.spec()} has no numbers to change: give linear, quadratic, segments or spline"
+            )
         return law.slopes(self.r) @ self.by_element
 
 
@@ -145,7 +147,9 @@ class _Linear:
     def total_terms(self) -> Terms:
         """What of the rotor's power a twist changes: on a stand the shaft's less the work on bending."""
         on_stand = self.problem.design.condition.stand is not None
-        return self.point.system.structure.sums["power on a stand"] if on_stand else self.power_terms
+        return (
+            self.point.system.structure.sums["power on a stand"] if on_stand else self.power_terms
+        )
 
     @cached_property
     def of_total(self) -> Array:
@@ -156,18 +160,24 @@ class _Linear:
     def induced_weights(self) -> ElementSlopes:
         """Of induced power, in its unit."""
         e, cell = self.elements, self.problem.disk.dr[:, None] / len(self.problem.disk.psi)
-        return ElementSlopes(fz=cell * e.induced, fx=cell * e.swirl[:, None], inflow=cell * e.fz, swirl=cell * e.fx)
+        return ElementSlopes(
+            fz=cell * e.induced, fx=cell * e.swirl[:, None], inflow=cell * e.fz, swirl=cell * e.fx
+        )
 
     def slopes(self, measure: MeasureSlopes) -> tuple[Array, Array]:
         """∂(measure)/∂θ by element, and slopes by every channel at every element, the states following."""
         point, structure = self.point, self.point.system.structure
-        multipliers = self.of_total if measure.terms is self.total_terms else self.multipliers(measure)
+        multipliers = (
+            self.of_total if measure.terms is self.total_terms else self.multipliers(measure)
+        )
         by_channel = transposed(point, -multipliers, measure)[1].sum(axis=2)
         by_pitch, torsion = by_channel[TH], self.problem.torsion
         if torsion is None:
             return by_pitch, by_channel
         steady = [structure.equations["twist", k, 0] for k in range(len(torsion.gain))]
-        return by_pitch - multipliers[steady] @ (torsion.gain[:, None] * torsion.tension), by_channel
+        return by_pitch - multipliers[steady] @ (
+            torsion.gain[:, None] * torsion.tension
+        ), by_channel
 
     @one_blas_thread()
     def _by_iteration(self, slopes: Array, tolerance: float) -> Array:
@@ -187,7 +197,9 @@ class _Linear:
         terms = self.problem.inflow_terms
         given = weights.over(self.problem.disk.shape)
         if self.problem.design.hovering:
-            fz, fx, inflow, theta, u_t, u_p, _, _, swirl = (weight.sum(axis=1)[:, None] for weight in given)
+            fz, fx, inflow, theta, u_t, u_p, _, _, swirl = (
+                weight.sum(axis=1)[:, None] for weight in given
+            )
             balanced = inflow + u_p + (swirl - u_t) * turning_of(self.point)[:, None]
             return MeasureSlopes(forces={FZ: fz, FX: fx, BALANCED: balanced}, channels={TH: theta})
         fz, fx, inflow, theta, u_t, u_p, u_r, rate, swirl = given
@@ -216,11 +228,15 @@ class Adjoint(_Linear):
         """
         with one_blas_thread():
             of_terms = isinstance(weights, Terms)
-            gradient, by_channel = self.slopes(MeasureSlopes(terms=weights) if of_terms else self.measure(weights))
+            gradient, by_channel = self.slopes(
+                MeasureSlopes(terms=weights) if of_terms else self.measure(weights)
+            )
             joined = joined_hover(self.solution.design)
             if joined is None:
                 return gradient
-            return gradient + self._by_difference(*joined, ElementSlopes() if of_terms else weights, by_channel)
+            return gradient + self._by_difference(
+                *joined, ElementSlopes() if of_terms else weights, by_channel
+            )
 
     def _by_difference(
         self, share: float, difference: HoverDifference, weights: ElementSlopes, by_channel: Array

@@ -60,7 +60,9 @@ class Analysis:
 def problem_of(solution: Solution) -> Problem:
     """The problem that it solves, with its wake along the course that it was found with."""
     problem = trim_problem(solution.design, solution.freedoms)
-    return problem if solution.wake_course is None else replace(problem, course=solution.wake_course)
+    return (
+        problem if solution.wake_course is None else replace(problem, course=solution.wake_course)
+    )
 
 
 def analysed(given: Solution | Analysis) -> Analysis:

@@ -40,14 +40,20 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     total = disk_sums(result.linear.point)
     power = power_budget(problem, elements, total)
     work, freed = (1e-3 * matrix * design.power_unit for matrix in (total.motion, total.damping))
-    if result.converged and problem.freedoms and 1e3 * abs(work - freed) > _ENERGY_TOLERANCE * abs(power.main_rotor):
+    if (
+        result.converged
+        and problem.freedoms
+        and 1e3 * abs(work - freed) > _ENERGY_TOLERANCE * abs(power.main_rotor)
+    ):
         raise ValueError(
             f"The air does {work:.4g} kW of work on the moving blades, but the freedoms report {freed:.4g} kW: make "
             "their columns, equations and power agree."
         )
     lift, drag = wind_forces(elements, total)
     newtons = design.thrust_unit
-    refused = _refused(result) or implausible(problem, elements, total) or _impossible(design, power)
+    refused = (
+        _refused(result) or implausible(problem, elements, total) or _impossible(design, power)
+    )
     solution = Solution(
         design=design,
         status=Status.NOT_CONVERGED if refused else Status.CONVERGED,
@@ -67,7 +73,11 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
         wake_course=course_of(problem),
         freedoms=problem.freedoms,
         deflections=_deflections(result),
-        freedom_states={str(name): float(x[states[name]]) for freedom in problem.freedoms for name in freedom.states},
+        freedom_states={
+            str(name): float(x[states[name]])
+            for freedom in problem.freedoms
+            for name in freedom.states
+        },
     )
     return Analysis(solution, result.linear)
 
@@ -98,7 +108,11 @@ def _refused(result: TrimResult) -> str:
         return axial_ring(result.problem.design)
     if result.converged:
         return ""
-    near, design = result.nearest or result, result.problem.design  # The last attempt, where nothing trimmed before.
+    # The last attempt, where nothing trimmed before.
+    near, design = (
+        result.nearest or result,
+        result.problem.design,
+    )
     there = stalled_parts(near.problem, near.linear.elements)[0]
     return vortex_ring(design) or failure_sentence(design, result.reached, there)
 
@@ -106,7 +120,10 @@ def _refused(result: TrimResult) -> str:
 def _impossible(design: Design, power: PowerBudget) -> str:
     """Why no flight needs this power, as a sentence."""
     climb = design.vertical_speed
-    if design.condition.stand is not None or (0.0 if climb >= 0.0 else -math.inf) < power.main_rotor < math.inf:
+    if (
+        design.condition.stand is not None
+        or (0.0 if climb >= 0.0 else -math.inf) < power.main_rotor < math.inf
+    ):
         return ""
     return (
         f"Not trimmed: the trim found needs {power_text(power.main_rotor)}, impossible in "
@@ -114,7 +131,9 @@ def _impossible(design: Design, power: PowerBudget) -> str:
     )
 
 
-def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]) -> ElasticTwist | None:
+def _elastic(
+    problem: Problem, elements: BladeElements, shown: tuple[Problem, BladeElements]
+) -> ElasticTwist | None:
     """shown: both on the azimuths of the solution."""
     structure = problem.design.rotor.blade.structure
     if problem.torsion is None or elements.torsion is None or structure is None:
@@ -136,7 +155,11 @@ def _elastic(problem: Problem, elements: BladeElements, shown: tuple[Problem, Bl
 
 
 def _deflections(result: TrimResult) -> Deflections | None:
-    bending, point, state = result.problem.bending, result.linear.point, result.linear.elements.state
+    bending, point, state = (
+        result.problem.bending,
+        result.linear.point,
+        result.linear.elements.state,
+    )
     if bending is None:
         return None
     q, _ = coordinates_of(bending, point.system.structure, point.z)
@@ -159,10 +182,23 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
         psi=disk.psi,
         **{
             name: getattr(e, name)
-            for name in ("theta", "u_t", "u_p", "u_r", "induced", "alpha", "mach", "cl", "cd", "cd_mach")
+            for name in (
+                "theta",
+                "u_t",
+                "u_p",
+                "u_r",
+                "induced",
+                "alpha",
+                "mach",
+                "cl",
+                "cd",
+                "cd_mach",
+            )
         },
         inflow=e.induced + e.flow.mu_z,
-        stall_margin=stall_margins(e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall),
+        stall_margin=stall_margins(
+            e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall
+        ),
         dct=e.fz,
         dcq=e.fx,
         dcr=e.fr,

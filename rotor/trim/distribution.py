@@ -58,7 +58,11 @@ class Distribution(ShortRepr):
         lines = [f"{'r/R':>6}{'mean N/m':>10}{'max N/m':>10}{'at ψ':>7}"]
         for i in dict.fromkeys(int(np.argmin(np.abs(self.r - r))) for r in _SHOWN):
             lift = self.lift[i]
-            where = f"{math.degrees(self.psi[lift.argmax()]):.0f}°" if np.ptp(lift) > 1e-6 * np.abs(lift).max() else "–"
+            where = (
+                f"{math.degrees(self.psi[lift.argmax()]):.0f}°"
+                if np.ptp(lift) > 1e-6 * np.abs(lift).max()
+                else "–"
+            )
             lines.append(f"{self.r[i]:6.3f}{lift.mean():10.0f}{lift.max():10.0f}{where:>7}")
         return "\n".join(lines)
 
@@ -70,7 +74,9 @@ def distribution(solution: Solution) -> Distribution:
     """
     design, disk = require_solution(solution).design, solution.require().disk
     lift, inflow = disk.dct * design.thrust_per_metre, disk.induced * design.rotor.tip_speed
-    return Distribution(disk.r, disk.psi, lift, disk.cl, _moments(design, disk), disk.mach, disk.alpha, inflow)
+    return Distribution(
+        disk.r, disk.psi, lift, disk.cl, _moments(design, disk), disk.mach, disk.alpha, inflow
+    )
 
 
 def _moments(design: Design, flow: DiskFields) -> Array:

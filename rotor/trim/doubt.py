@@ -115,7 +115,9 @@ class Doubt:
         rows = np.array([row.changes for row in self.rows if row.changes])
         if not rows.size:
             return {}
-        bands = np.linalg.norm(np.column_stack((rows, rows[:, : PARTS.index("tail")].sum(axis=1))), axis=0)
+        bands = np.linalg.norm(
+            np.column_stack((rows, rows[:, : PARTS.index("tail")].sum(axis=1))), axis=0
+        )
         return dict(zip((*PARTS, "main_rotor"), bands.tolist(), strict=True))
 
     @property
@@ -126,7 +128,11 @@ class Doubt:
     @property
     def change_band_percent(self) -> float | None:
         """`change_band` in per cent of the power compared with."""
-        return None if self.change_band is None or not self.against else 100.0 * self.change_band / abs(self.against)
+        return (
+            None
+            if self.change_band is None or not self.against
+            else 100.0 * self.change_band / abs(self.against)
+        )
 
     @property
     def sureness(self) -> str | None:
@@ -178,7 +184,9 @@ class Doubt:
                 for row in self.rows
             ],
             "part_bands_w": dict(self.part_bands),
-            "models": {row.name: {"power_w": row.power, "change_w": row.change} for row in self.models},
+            "models": {
+                row.name: {"power_w": row.power, "change_w": row.change} for row in self.models
+            },
         }
 
 
@@ -186,13 +194,24 @@ def doubt_table(doubt: Doubt) -> Table:
     """The contributions to the bands, one row for each uncertain input."""
     symbol, size = power_unit(doubt.power, doubt.band)
     rows: list[tuple[CellValue, ...]] = [
-        (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size) for row in doubt.rows
+        (row.words, row.size_words, f"{row.power / size:+.2f}", row.change and row.change / size)
+        for row in doubt.rows
     ]
     rows += [
-        (f"with {other.name}", None, f"{other.power / size:.1f}", other.change and other.change / size)
+        (
+            f"with {other.name}",
+            None,
+            f"{other.power / size:.1f}",
+            other.change and other.change / size,
+        )
         for other in doubt.models
     ]
-    columns = Column("uncertain", LEFT), Column("by"), Column(f"power {symbol}"), Column(f"change {symbol}", "+.2f")
+    columns = (
+        Column("uncertain", LEFT),
+        Column("by"),
+        Column(f"power {symbol}"),
+        Column(f"change {symbol}", "+.2f"),
+    )
     return table(columns, rows)
 
 
@@ -206,14 +225,18 @@ def sureness(change: float, band: float, *, sourced: bool = True) -> str:
 def banded(change: float, band: float, unit: str, least: int = 0, *, sourced: bool = True) -> str:
     """A change with its band and whether its sign is known, as `1.8 ± 0.7 %: sure`; decimals as `change_decimals`."""
     digits = change_decimals(change, band, least)
-    return f"{change:.{digits}f} ± {band:.{digits}f} {unit}: {sureness(change, band, sourced=sourced)}"
+    return (
+        f"{change:.{digits}f} ± {band:.{digits}f} {unit}: {sureness(change, band, sourced=sourced)}"
+    )
 
 
 def change_decimals(change: float, band: float, least: int = 0) -> int:
     """Decimals of a change and its band as printed: `least` or those of the band, up to 2, and more until the printed
     numbers have the word of the exact ones. So equal numbers have equal words."""
     digits = max(min(decimals(band), 2), least)
-    while digits < 9 and sureness(round(change, digits), round(band, digits)) != sureness(change, band):
+    while digits < 9 and sureness(round(change, digits), round(band, digits)) != sureness(
+        change, band
+    ):
         digits += 1
     return digits
 
@@ -226,7 +249,12 @@ def decimals(band: float) -> int:
     return max(0, -first + (band / 10.0**first < 2.0))
 
 
-def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = None, *, models: bool = False) -> Doubt:
+def doubt(
+    solution: Solution | Analysis,
+    against: Solution | Analysis | None = None,
+    *,
+    models: bool = False,
+) -> Doubt:
     """The uncertainty of a design's power, and that of its difference from another design.
 
     Most causes act on both designs alike, so the difference is more certain than the power. Of a free rotor the power
@@ -257,16 +285,28 @@ def doubt(solution: Solution | Analysis, against: Solution | Analysis | None = N
 
 
 def mean_doubt(
-    shares: Sequence[float], here: Sequence[Analysis], there: Sequence[Analysis] | None, *, induced: bool = False
+    shares: Sequence[float],
+    here: Sequence[Analysis],
+    there: Sequence[Analysis] | None,
+    *,
+    induced: bool = False,
 ) -> Doubt:
     """`doubt` of a mean power over conditions, or of induced power alone."""
     first = here[0].solution.design
     if there is not None and (_is_free(first) or _is_free(there[0].solution.design)):
-        raise ValueError("A free rotor takes no power from its shaft, so no saving is known: leave against out.")
-    changes, differences, none = mean_changes(shares, here), dict[str, Array](), np.zeros(len(PARTS))
+        raise ValueError(
+            "A free rotor takes no power from its shaft, so no saving is known: leave against out."
+        )
+    changes, differences, none = (
+        mean_changes(shares, here),
+        dict[str, Array](),
+        np.zeros(len(PARTS)),
+    )
     if there is not None:
         others = mean_changes(shares, there)
-        differences = {name: changes.get(name, none) - others.get(name, none) for name in {**changes, **others}}
+        differences = {
+            name: changes.get(name, none) - others.get(name, none) for name in {**changes, **others}
+        }
         for share, one, other in zip(shares, here, there, strict=True):
             for name, change in _inflow_differences(one.solution, other.solution).items():
                 differences[name] = differences.get(name, none) + share * change
@@ -274,10 +314,22 @@ def mean_doubt(
     for row in uncertain_inputs(first):
         if row.name in changes or row.name in differences:
             power, change = (
-                float((found.get(row.name, none)[: 1 if induced else None]).sum()) for found in (changes, differences)
+                float((found.get(row.name, none)[: 1 if induced else None]).sum())
+                for found in (changes, differences)
             )
-            parts = () if there is None or first.condition.stand else tuple(differences[row.name].tolist())
-            rows.append(DoubtRow(**vars(row), power=power, change=None if there is None else change, changes=parts))
+            parts = (
+                ()
+                if there is None or first.condition.stand
+                else tuple(differences[row.name].tolist())
+            )
+            rows.append(
+                DoubtRow(
+                    **vars(row),
+                    power=power,
+                    change=None if there is None else change,
+                    changes=parts,
+                )
+            )
     rows.sort(key=lambda row: -abs(row.power if row.change is None else row.change))
     return Doubt(
         _mean_power(shares, here, induced),
@@ -313,7 +365,9 @@ def _inflow_differences(here: Solution, there: Solution) -> dict[str, Array]:
     designs = here.design, there.design
     size = {row.name: 0.01 * row.size for row in uncertain_inputs(here.design)}
     hovering = any(design.hovering for design in designs)
-    first, second = (None if hovering else _powers_with_other_inflow(each) for each in (here, there))
+    first, second = (
+        None if hovering else _powers_with_other_inflow(each) for each in (here, there)
+    )
     change = by_part(here.power) - by_part(there.power)
     induced = size["hover_wake_percent"] * change * (1.0, 0.0, 0.0, 0.0)
     if first is None or second is None:
@@ -338,7 +392,11 @@ class _OtherTrim:
 
 def _powers_with_other_inflow(solution: Solution) -> Array | None:
     """By `PARTS` [W]; None where it does not trim."""
-    return _powers(_OtherTrim(with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)))
+    return _powers(
+        _OtherTrim(
+            with_other_inflow(solution.design), replace(solution.start, inflow=None, box=None)
+        )
+    )
 
 
 @lru_cache(maxsize=64)
@@ -354,7 +412,9 @@ def known_power(solution: Solution) -> float:
 
 
 def _mean_power(shares: Sequence[float], trims: Sequence[Analysis], induced: bool) -> float:
-    powers = (trim.solution.power.induced if induced else known_power(trim.solution) for trim in trims)
+    powers = (
+        trim.solution.power.induced if induced else known_power(trim.solution) for trim in trims
+    )
     return sum(share * power for share, power in zip(shares, powers, strict=True))
 
 
@@ -386,8 +446,15 @@ def other_models(design: Design) -> dict[str, Design]:
     """
     models, designs = design.models, dict[str, Design]()
     if design.hovering:
-        slow, others = design.at(mu=SLOWEST), [name for name in usual_inflows() if INFLOW_MODELS[name].load_dependent]
-        flown = {name: replace(models, inflow=name, low_speed="wake") for name in others if models.disk_axial_flow}
+        slow, others = (
+            design.at(mu=SLOWEST),
+            [name for name in usual_inflows() if INFLOW_MODELS[name].load_dependent],
+        )
+        flown = {
+            name: replace(models, inflow=name, low_speed="wake")
+            for name in others
+            if models.disk_axial_flow
+        }
         return {f"inflow {name}": replace(slow, models=one) for name, one in flown.items()}
     for name in usual_inflows():
         if name != models.inflow:

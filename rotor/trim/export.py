@@ -19,7 +19,12 @@ from rotor.trim.solution import ElasticTwist, Solution, require_solution
 
 SCHEMA = "rotor-explorer solution 1"
 """Of `solution_record`: another number where a key goes or changes its meaning. The keys: docs/formats.md."""
-_RIGID = ("elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "control_power_w")
+_RIGID = (
+    "elastic_twist_deg",
+    "torsion_frequencies_per_rev",
+    "pitch_link_load_n",
+    "control_power_w",
+)
 _DEGREES = math.degrees(1.0)
 DISK_LABELS: dict[str, tuple[str, float]] = {
     "alpha": ("Angle of attack [°]", _DEGREES),
@@ -47,10 +52,16 @@ def solution_record(solution: Solution) -> dict[str, Any]:
 
     Keys end in their unit: docs/formats.md. Raises TypeError for anything but a solution.
     """
-    design, controls, power = require_solution(solution).design, solution.controls, solution.last_power
+    design, controls, power = (
+        require_solution(solution).design,
+        solution.controls,
+        solution.last_power,
+    )
     stand, carried = design.condition.stand, design.rotor.blade.carried
     values: dict[str, Any] = {
-        "power_w": {name: getattr(power, name) for name in _POWERS if name != "damping" or solution.freedoms},
+        "power_w": {
+            name: getattr(power, name) for name in _POWERS if name != "damping" or solution.freedoms
+        },
         **({"freedoms": solution.freedom_states} if solution.freedoms else {}),
         "ct": solution.ct,
         "cp": solution.cp,
@@ -83,14 +94,26 @@ def solution_record(solution: Solution) -> dict[str, Any]:
         "speed_m_s": design.airspeed,
         "mass_kg": design.condition.mass,
         "altitude_m": design.condition.altitude,
-        **{name: design.numbers[name] for name in reported_names([design.unusual]) if name in UNUSUAL},
+        **{
+            name: design.numbers[name]
+            for name in reported_names([design.unusual])
+            if name in UNUSUAL
+        },
         "preset": design.preset,
         "inflow": design.models.inflow if not design.hovering else design.models.hover_inflow,
         "twist": design.twist.spec(),
         **({} if stand is None else {"trim": design.models.trim, "stand": stand.record()}),
         **({} if carried is None else {"actuator": carried.spec}),
-        **({} if design.active_twist is None else {"active_twist": active_twist_record(design.active_twist)}),
-        **({"pitch_per_rev": harmonics_record(design.pitch_per_rev)} if design.pitch_per_rev else {}),
+        **(
+            {}
+            if design.active_twist is None
+            else {"active_twist": active_twist_record(design.active_twist)}
+        ),
+        **(
+            {"pitch_per_rev": harmonics_record(design.pitch_per_rev)}
+            if design.pitch_per_rev
+            else {}
+        ),
         **_switches(solution),
         **(values if solution.converged else _emptied(values)),
         "elapsed_ms": 1e3 * solution.elapsed,
@@ -104,7 +127,9 @@ def save_solution(solution: Solution, path: str | Path) -> None:
     """
     check_suffix(path, ".json")
     if require_solution(solution).freedoms:
-        raise ValueError("a design file holds no freedoms of the blade: write rotor.solution_record(solution) instead")
+        raise ValueError(
+            "a design file holds no freedoms of the blade: write rotor.solution_record(solution) instead"
+        )
     record = {**solution.design.to_dict(), "solution": solution_record(solution)}
     write_whole(path, json.dumps(record, indent=2, allow_nan=False) + "\n")
 
@@ -164,4 +189,7 @@ def _switches(solution: Solution) -> dict[str, Any]:
 
 def _emptied(values: dict[str, Any]) -> dict[str, Any]:
     """Keys of a record without their values."""
-    return {key: _emptied(cast(dict[str, Any], one)) if isinstance(one, dict) else None for key, one in values.items()}
+    return {
+        key: _emptied(cast(dict[str, Any], one)) if isinstance(one, dict) else None
+        for key, one in values.items()
+    }

@@ -32,7 +32,9 @@ SLOWEST = 1e-4
 FOLLOWING_PASSES = 25
 """Evaluations of the blade elements in one step of continuation: steps that converge take 6 to 20 in nearly all cases,
 and a shorter step costs less than more of them. Our choice."""
-_NEARLY = SolverOptions(residual_tolerance=1e-4, torsion_tolerance=1e-4, inflow_tolerance=1e-2, slopes=False)
+_NEARLY = SolverOptions(
+    residual_tolerance=1e-4, torsion_tolerance=1e-4, inflow_tolerance=1e-2, slopes=False
+)
 """To which the blade as built is trimmed as a start: each twist is solved to the end from there. Our choice."""
 _FINEST_OF_REST = 0.1
 """Step of continuation over the way left below which it gives up: so small a step means that trims end. Our choice."""
@@ -54,7 +56,9 @@ def _trim_of_wake(design: Design) -> tuple[WakeCourse, TrimState] | None:
     """The course of the wake, and the trim along which it lies; None as for `found_course`."""
     if design.hovering or inflow_model(design.models.inflow).wake_along is None:
         return None
-    models = replace(design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True)
+    models = replace(
+        design.models, elastic_twist=False, bending=False, tip_loss=True, hub_loss=True
+    )
     return _linear_trim(replace(as_built(design), models=models))
 
 
@@ -67,7 +71,10 @@ def _linear_trim(design: Design) -> tuple[WakeCourse, TrimState] | None:
     """
     problem = linear_problem(replace(design, models=replace(design.models, reverse_flow=False)))
     tables = without_stall(problem.disk, None if design.models.compressibility else LOW_MACH)
-    result = trim(replace(problem, disk=replace(problem.disk, tables=tables)), options=SolverOptions(slopes=False))
+    result = trim(
+        replace(problem, disk=replace(problem.disk, tables=tables)),
+        options=SolverOptions(slopes=False),
+    )
     return (along(result, problem.course), result.state) if result.converged else None
 
 
@@ -104,7 +111,11 @@ def trim_on_course(
 ) -> TrimResult:
     """`trim`, and of a free rotor once more with its wake along the trim found."""
     result = trim(problem, start, options, most_stalled)
-    if problem.design.models.trim != "free-rotor" or problem.inflow.wake_along is None or not result.converged:
+    if (
+        problem.design.models.trim != "free-rotor"
+        or problem.inflow.wake_along is None
+        or not result.converged
+    ):
         return result
     again = trim(replace(problem, course=along(result, problem.course)), result.guess, options)
     return replace(again, passes=result.passes + again.passes)
@@ -212,10 +223,15 @@ def first_guess(problem: Problem) -> Guess:
     ct = math.hypot(problem.weight, problem.drag)
     flow = problem.expected
     # C_T = ½σa(θ(1 + 3/2 µ²)/3 − λ/2) for an untwisted blade, a near 2π·0.95.
-    collective = 3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * flow.axial) / (1.0 + 1.5 * mu**2)
+    collective = (
+        3.0 * (2.0 * ct / (design.rotor.solidity * 5.9) + 0.5 * flow.axial) / (1.0 + 1.5 * mu**2)
+    )
     coning = problem.flap.load_gain * 0.7 * ct - problem.flap.droop
     state = TrimState(
-        collective=collective, shaft_tilt=math.atan2(problem.drag, problem.weight), coning=coning, lambda0=flow.lambda0
+        collective=collective,
+        shaft_tilt=math.atan2(problem.drag, problem.weight),
+        coning=coning,
+        lambda0=flow.lambda0,
     )
     stand = design.condition.stand
     if stand is not None:
@@ -224,8 +240,14 @@ def first_guess(problem: Problem) -> Guess:
         state = replace(state, collective=stand.collective)
     if "cyclic_1c" in trim_of(design).unknowns:
         cyclic = {"cyclic_1s": -8.0 / 3.0 * mu * collective, "cyclic_1c": 4.0 / 3.0 * mu * coning}
-        return Guess(replace(state, **cyclic, flap_1c=design.condition.flap_1c, flap_1s=design.condition.flap_1s))
-    return Guess(replace(state, flap_1c=-8.0 / 3.0 * mu * collective, flap_1s=-4.0 / 3.0 * mu * coning))
+        return Guess(
+            replace(
+                state, **cyclic, flap_1c=design.condition.flap_1c, flap_1s=design.condition.flap_1s
+            )
+        )
+    return Guess(
+        replace(state, flap_1c=-8.0 / 3.0 * mu * collective, flap_1s=-4.0 / 3.0 * mu * coning)
+    )
 
 
 def _easier(design: Design, t: float) -> Problem:
@@ -245,7 +267,10 @@ def easier_condition(design: Design, t: float) -> FlightCondition:
             stand=_easier_stand(condition.stand, design, t),
         )
     blade_loading = design.weight_coefficient / design.rotor.solidity
-    easy_mass = min(condition.mass, max(0.045 * condition.mass / max(blade_loading, 1e-9), CONDITION["mass_kg"].low))
+    easy_mass = min(
+        condition.mass,
+        max(0.045 * condition.mass / max(blade_loading, 1e-9), CONDITION["mass_kg"].low),
+    )
     return replace(
         condition,
         advance_ratio=easy_speed + t * (speed - easy_speed),
@@ -291,7 +316,9 @@ def _continue(
         result = newton(near, replace(guess, box=None), following)
         passes += result.passes
         follows = result.converged and not _hangs_under_its_wake(near, result)
-        if follows and (ahead == 1.0 or stalled_parts(near, result.linear.elements)[1] <= most_stalled):
+        if follows and (
+            ahead == 1.0 or stalled_parts(near, result.linear.elements)[1] <= most_stalled
+        ):
             before, latest, t = latest, (ahead, result), ahead
             step *= 1.7
         else:

@@ -17,13 +17,18 @@ from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, TrimResult
 _LARGEST_COLLECTIVE = math.radians(40.0)
 
 
-def hover(problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS) -> TrimResult:
+def hover(
+    problem: Problem, start: Guess | None = None, options: SolverOptions = DEFAULT_OPTIONS
+) -> TrimResult:
     """Collective for a thrust equal to the weight; Newton with a bracket, from an optional start.
 
     On a test stand the thrust is the one given; with the collective given only the elastic twist is to be found. An
     elastic blade twists with every step.
     """
-    stand, collective = problem.design.condition.stand, start.state.collective if start is not None else None
+    stand, collective = (
+        problem.design.condition.stand,
+        start.state.collective if start is not None else None,
+    )
     if stand is not None and stand.collective is not None:
         return _with_collective(problem, stand.collective, start, options)
     system = hover_system(problem)
@@ -32,7 +37,9 @@ def hover(problem: Problem, start: Guess | None = None, options: SolverOptions =
         collective = 6.0 * problem.weight / (problem.design.rotor.solidity * 5.9)
         collective += 1.5 * (axial_inflow(problem.weight, climb) + climb)
     found = _for_thrust(problem, system, _first(problem, system, collective, start), options)
-    return found if found.converged else replace(found, steady=not is_windmill(problem.weight, climb))
+    return (
+        found if found.converged else replace(found, steady=not is_windmill(problem.weight, climb))
+    )
 
 
 def _first(problem: Problem, system: System, collective: float, start: Guess | None) -> Array:
@@ -45,7 +52,9 @@ def _first(problem: Problem, system: System, collective: float, start: Guess | N
     return np.concatenate([system.numbers, [collective, coning], twist])
 
 
-def _with_collective(problem: Problem, collective: float, start: Guess | None, options: SolverOptions) -> TrimResult:
+def _with_collective(
+    problem: Problem, collective: float, start: Guess | None, options: SolverOptions
+) -> TrimResult:
     """Coning and elastic twist at a given collective, in the state of axial flow that its thrust has.
 
     No two states hold at one collective: wind against the thrust lifts a windmill more than a rotor whose wake goes on
@@ -68,7 +77,8 @@ def _with_collective(problem: Problem, collective: float, start: Guess | None, o
         and 2.0 * abs(area @ windmill.point.forces[BALANCED, :, 0]) <= abs(climb) * area.sum()
     ):
         return windmill  # It takes at most half of the wind, on the mean over the disk.
-    descending, thrust = state(math.copysign(max(scale, climb * climb), -climb))  # The wake goes against the wind.
+    # The wake goes against the wind.
+    descending, thrust = state(math.copysign(max(scale, climb * climb), -climb))
     steady = axial_flow_is_steady(thrust, climb) and not is_windmill(thrust, climb)
     return replace(descending, steady=steady)
 
@@ -114,7 +124,8 @@ def _for_thrust(problem: Problem, system: System, x: Array, options: SolverOptio
         if (balanced and off <= options.torsion_tolerance) or high - low < 1e-14:
             break
         theta, margin = float(x[collective]), 5.0 * off  # The twist still moves by about this much.
-        if math.isnan(error):  # A windmill's thrust has an end, beyond which part of the disk is turbulent.
+        # A windmill's thrust has an end, beyond which part of the disk is turbulent.
+        if math.isnan(error):
             high = theta
         elif error < 0.0 and slope > 0.0:
             low = max(low, theta - margin)
@@ -130,4 +141,6 @@ def _for_thrust(problem: Problem, system: System, x: Array, options: SolverOptio
     point = evaluate(system, system.grid, best[1], slopes=True, flow=True)
     residual = abs(float(point.residual[0])) / problem.scale
     converged = max(residual, _error(point, problem, 1)) <= options.accepted_hover
-    return TrimResult(problem, point, residual, converged, passes, 1.0 + float(point.residual[0]) / problem.scale)
+    return TrimResult(
+        problem, point, residual, converged, passes, 1.0 + float(point.residual[0]) / problem.scale
+    )

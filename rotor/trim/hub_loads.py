@@ -57,7 +57,9 @@ class HubLoads:
         """Least and largest change of the index from another's over the inflow models [%]; None where not known."""
         here, there = self.indices or {}, other.indices or {}
         pairs = [(here[name], there[name]) for name in here if name in there]
-        changes = [100.0 * (index / before - 1.0) for index, before in ((self.index, other.index), *pairs)]
+        changes = [
+            100.0 * (index / before - 1.0) for index, before in ((self.index, other.index), *pairs)
+        ]
         return (min(changes), max(changes)) if pairs else None
 
     def record(self) -> dict[str, Any]:
@@ -75,7 +77,9 @@ Solve = Callable[[Design, Solution | Guess | None], Analysis]
 """As `analyse`."""
 
 
-def hub_loads(given: Solution | Analysis, *, solve: Solve | None = None, band: bool = True) -> HubLoads | None:
+def hub_loads(
+    given: Solution | Analysis, *, solve: Solve | None = None, band: bool = True
+) -> HubLoads | None:
     """Vibratory loads of all blades on the hub at N_b per revolution.
 
     A design whose blades do not bend is solved again with blades that bend.
@@ -104,7 +108,10 @@ def hub_loads(given: Solution | Analysis, *, solve: Solve | None = None, band: b
     _, values = terms_and_loads(trim.adjoint)
     index = 100.0 * index_of(design, values)[0]
     indices = {design.models.inflow: index, **_indices(design, solve)} if band else None
-    amplitudes, phases = np.hypot(*values.T).tolist(), np.arctan2(values[:, 1], values[:, 0]).tolist()
+    amplitudes, phases = (
+        np.hypot(*values.T).tolist(),
+        np.arctan2(values[:, 1], values[:, 0]).tolist(),
+    )
     sizes: dict[str, float] = dict(zip(LOADS, amplitudes, strict=True))
     angles: dict[str, float] = dict(zip(LOADS, phases, strict=True))
     return HubLoads(design.rotor.blades, sizes, angles, index, indices)
@@ -148,7 +155,11 @@ def index_gains(design: Design) -> Array:
     """What each load counts in the index [1/N, 1/(N m)], (5,): the index is √Σ of the three forces' squares times their
     gains, and the same of the two moments."""
     condition, radius = design.condition, design.rotor.radius
-    weight = condition.weight if condition.stand is None else design.weight_coefficient * design.thrust_unit
+    weight = (
+        condition.weight
+        if condition.stand is None
+        else design.weight_coefficient * design.thrust_unit
+    )
     return np.array([_AFT, _SIDE, 1.0, 1.0 / radius, 1.0 / radius]) / weight
 
 
@@ -156,7 +167,10 @@ def index_of(design: Design, values: Array) -> tuple[float, Array]:
     """The index, a fraction, and its slopes by the loads, (loads, 2)."""
     gains = index_gains(design)[:, None]
     weighted = gains * values
-    force, moment = math.sqrt(float((weighted[:3] ** 2).sum())), math.sqrt(float((weighted[3:] ** 2).sum()))
+    force, moment = (
+        math.sqrt(float((weighted[:3] ** 2).sum())),
+        math.sqrt(float((weighted[3:] ** 2).sum())),
+    )
     slopes = gains * weighted
     slopes[:3] /= max(force, 1e-30)
     slopes[3:] /= max(moment, 1e-30)
@@ -173,5 +187,10 @@ def index_along(adjoint: Adjoint) -> tuple[float, Array]:
     design, (terms, loads) = adjoint.problem.design, terms_and_loads(adjoint)
     index, slopes = index_of(design, loads)
     weights = 100.0 * load_units(design) * slopes
-    summed = replace(terms, row=np.zeros_like(terms.row), factor=terms.factor * weights.ravel()[terms.row], rows=1)
+    summed = replace(
+        terms,
+        row=np.zeros_like(terms.row),
+        factor=terms.factor * weights.ravel()[terms.row],
+        rows=1,
+    )
     return 100.0 * index, adjoint.by_pitch(summed)

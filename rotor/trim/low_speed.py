@@ -69,7 +69,9 @@ def hover_difference(design: Design, course: WakeCourse | None) -> HoverDifferen
     load = elements.fz[:, 0]
     flown = problem if course is None else replace(problem, course=course)
     axial, slope = flown.inflow_terms.axial(flow, elements.u_t[:, 0])
-    uniform, _ = swirl_of(disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0)
+    uniform, _ = swirl_of(
+        disk.r, flow.lambda0**2 + flow.lambda0 * flow.mu_z if design.models.has("swirl") else 0.0
+    )
     inflow = elements.induced[:, 0] - axial @ load
     difference = axial, slope * load, inflow, elements.swirl - uniform
     fix(difference)
@@ -91,7 +93,10 @@ def inflow_ratio(mu: float) -> float:
 
 def trim_problem(design: Design, freedoms: Sequence[Freedom] = ()) -> Problem:
     """The design on its grid with further freedoms, and the inflow that its models choose for low speed."""
-    problem, hovering = replace(with_course(build_problem(design)), freedoms=tuple(freedoms)), joined_hover(design)
+    problem, hovering = (
+        replace(with_course(build_problem(design)), freedoms=tuple(freedoms)),
+        joined_hover(design),
+    )
     if hovering is None:
         return problem
     share, difference = hovering
@@ -116,15 +121,26 @@ def in_hover(design: Design) -> Design:
 
     Faster descents are flown at speed only, where little of hover is left.
     """
-    slowest = vortex_ring_edge(0.0) * math.sqrt(0.5 * design.weight_coefficient) * design.rotor.tip_speed
-    climb = max(design.condition.climb_speed, slowest + (design.condition.climb_speed - design.vertical_speed))
-    return replace(design, condition=replace(design.condition, advance_ratio=0.0, climb_speed=climb))
+    slowest = (
+        vortex_ring_edge(0.0) * math.sqrt(0.5 * design.weight_coefficient) * design.rotor.tip_speed
+    )
+    climb = max(
+        design.condition.climb_speed,
+        slowest + (design.condition.climb_speed - design.vertical_speed),
+    )
+    return replace(
+        design, condition=replace(design.condition, advance_ratio=0.0, climb_speed=climb)
+    )
 
 
 def passes_over(design: Design) -> bool:
     """Whether forward flight of the design passes over to its hover model as the speed falls."""
     models = design.models
-    return models.low_speed == "hover" and design.condition.stand is None and inflow_model(models.inflow).load_dependent
+    return (
+        models.low_speed == "hover"
+        and design.condition.stand is None
+        and inflow_model(models.inflow).load_dependent
+    )
 
 
 def hover_share(design: Design) -> float:
@@ -139,7 +155,11 @@ def vortex_ring(design: Design) -> str:
     stand, thrust = design.condition.stand, design.weight_coefficient
     if design.hovering:
         known = stand is None or stand.collective is None
-        return axial_ring(design) if known and not axial_flow_is_steady(thrust, design.vertical_ratio) else ""
+        return (
+            axial_ring(design)
+            if known and not axial_flow_is_steady(thrust, design.vertical_ratio)
+            else ""
+        )
     if math.copysign(1.0, thrust) * design.vertical_speed >= 0.0:
         return ""
     inflow, mu = math.sqrt(0.5 * abs(thrust)), design.condition.advance_ratio
@@ -160,7 +180,10 @@ def axial_ring(design: Design) -> str:
     end, remedy = "", "change the collective or the climb"
     if (stand := design.condition.stand) is None or stand.collective is None:
         speed = math.sqrt(0.5 * abs(design.weight_coefficient)) * design.rotor.tip_speed
-        slow, fast = math.floor(-10.0 * vortex_ring_edge(0.0) * speed) / 10.0, math.ceil(20.0 * speed) / 10.0
+        slow, fast = (
+            math.floor(-10.0 * vortex_ring_edge(0.0) * speed) / 10.0,
+            math.ceil(20.0 * speed) / 10.0,
+        )
         lowest = math.ceil(1e3 * FASTEST_RING * speed / design.rotor.tip_speed) / 1e3
         end = f" up to {fast:.1f} m/s or more"
         remedy = f"descend at less than {slow:.1f} m/s, or fly beyond advance ratio {lowest:.3f}"

@@ -22,7 +22,9 @@ BATCH = 32
 """Designs in one step: their fields then stay in the processor's cache. Our choice."""
 
 
-def solve_many(designs: Iterable[Design], options: SolverOptions = DEFAULT_OPTIONS) -> list[Solution]:
+def solve_many(
+    designs: Iterable[Design], options: SolverOptions = DEFAULT_OPTIONS
+) -> list[Solution]:
     """Trim many designs. Where they differ in twist alone and the inflow is a lifting line, they are trimmed in step.
 
     That saves time where their twists are near each other; all others take as long as with `solve`, one by one.
@@ -44,12 +46,16 @@ def solve_many(designs: Iterable[Design], options: SolverOptions = DEFAULT_OPTIO
         [True, True, True]
     """
     if isinstance(designs, Design):
-        raise TypeError("designs is one design: give several in a list, or write rotor.solve(design)")
+        raise TypeError(
+            "designs is one design: give several in a list, or write rotor.solve(design)"
+        )
     return [trim.solution.light() for trim in analyse_many(list(designs), options=options)]
 
 
 def analyse_many(
-    designs: Sequence[Design], starts: Sequence[Start] = (), options: SolverOptions = DEFAULT_OPTIONS
+    designs: Sequence[Design],
+    starts: Sequence[Start] = (),
+    options: SolverOptions = DEFAULT_OPTIONS,
 ) -> list[Analysis]:
     """`solve_many`, with the equations at the solutions kept.
 
@@ -63,7 +69,9 @@ def analyse_many(
         for first in range(0, len(group), BATCH):
             some = group[first : first + BATCH]
             if len(some) > 1 and not options.asked_to_stop:
-                found = analyse_in_step([designs[k] for k in some], [starts[k] for k in some], options)
+                found = analyse_in_step(
+                    [designs[k] for k in some], [starts[k] for k in some], options
+                )
                 trims |= {k: trim for k, trim in zip(some, found, strict=True) if trim is not None}
             for k in some:
                 if k not in trims:
@@ -83,10 +91,15 @@ def analyse_in_step(
     if built is None:
         return [None] * len(designs)
     problems = [trim_problem(design) for design in designs]
-    guesses = [guess_of(design, start) or built for design, start in zip(designs, starts, strict=True)]
+    guesses = [
+        guess_of(design, start) or built for design, start in zip(designs, starts, strict=True)
+    ]
     if guesses[0].factors is None:
         guesses[0] = replace(guesses[0], box=built.box, structure=built.structure)
     results = newton_together(problems, guesses, options)
     each = (time.perf_counter() - begin) / len(designs)
-    trims = [None if result is None else assemble(result, time.perf_counter() - each) for result in results]
+    trims = [
+        None if result is None else assemble(result, time.perf_counter() - each)
+        for result in results
+    ]
     return [None if trim is None or is_suspect_branch(trim) else trim for trim in trims]

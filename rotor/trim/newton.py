@@ -27,7 +27,9 @@ class SolverOptions(SystemTolerances):
 
     def __repr__(self) -> str:
         changed = ((one.name, getattr(self, one.name)) for one in fields(self))
-        named = (f"{name}={value!r}" for name, value in changed if value != getattr(SolverOptions, name))
+        named = (
+            f"{name}={value!r}" for name, value in changed if value != getattr(SolverOptions, name)
+        )
         return f"{type(self).__name__}({', '.join(named)})"
 
     accepted_residual: float = 1e-7
@@ -103,7 +105,9 @@ class Guess:
     @property
     def array(self) -> Array:
         """All numbers of the guess in one vector."""
-        others = (part.ravel() for part in (self.elastic, self.bending, self.inflow) if part is not None)
+        others = (
+            part.ravel() for part in (self.elastic, self.bending, self.inflow) if part is not None
+        )
         return np.concatenate([self.state.array(), *others])
 
     def with_array(self, numbers: Array) -> "Guess":
@@ -135,7 +139,9 @@ class LinearisedTrim:
     @cached_property
     def elements(self) -> BladeElements:
         """The blade elements at the solution."""
-        return (hover_elements if self.problem.design.hovering else elements_of)(self.problem, self.point)
+        return (hover_elements if self.problem.design.hovering else elements_of)(
+            self.problem, self.point
+        )
 
     @cached_property
     def stalled_moment(self) -> float:
@@ -188,7 +194,9 @@ class TrimResult:
         """A start for trims nearby."""
         if self.problem.design.hovering:
             hovering = self.linear.elements
-            return Guess(hovering.state, None if hovering.torsion is None else hovering.torsion.coordinates)
+            return Guess(
+                hovering.state, None if hovering.torsion is None else hovering.torsion.coordinates
+            )
         structure = self.point.system.structure
         state, twist, bending, inflow = parts_of(structure, self.point.x)
         modes = len(self.problem.given_torsion)
@@ -202,7 +210,9 @@ def newton(problem: Problem, start: Guess, options: SolverOptions = DEFAULT_OPTI
     system = flight_system(problem, options)
     factors = start.factors if start.structure == system.structure.name else None
     limits = _limits(problem, system, options)
-    return _ended(problem, solve(system, first_point(problem, system, start), factors, limits), options)
+    return _ended(
+        problem, solve(system, first_point(problem, system, start), factors, limits), options
+    )
 
 
 def newton_together(
@@ -220,17 +230,21 @@ def newton_together(
     places = [
         k
         for k, x in enumerate(begun)
-        if can_share_steps(systems[k], one) and (one.nodes is None or x[one.structure.given :].any())
+        if can_share_steps(systems[k], one)
+        and (one.nodes is None or x[one.structure.given :].any())
     ]
     x = np.array([begun[k] for k in places])
     limits, data = _limits(problems[0], one, options), partial(side_by_side, one.grid.data)
-    found = zip(places, solve_together([systems[k] for k in places], x, factors, limits, data), strict=True)
+    found = zip(
+        places, solve_together([systems[k] for k in places], x, factors, limits, data), strict=True
+    )
     ended = {k: _ended(problems[k], solved, options) for k, solved in found if solved is not None}
     return [ended.get(k) for k in range(len(problems))]
 
 
 def _limits(problem: Problem, system: System, options: SolverOptions) -> NewtonLimits:
-    if system.nodes is not None:  # Derivatives by so many unknowns cost as much as fifteen steps, on finer grids more.
+    # Derivatives by so many unknowns cost as much as fifteen steps, on finer grids more.
+    if system.nodes is not None:
         finer = len(system.nodes.matrix) / 576.0
         most, kept = max(20.0, 7.0 * finer), max(20.0, 10.0 * finer)
         return NewtonLimits(options.max_passes, most, kept, kept_ratio=0.5, slopes=options.slopes)
@@ -241,16 +255,22 @@ def _limits(problem: Problem, system: System, options: SolverOptions) -> NewtonL
 def _ended(problem: Problem, solved: Solved, options: SolverOptions) -> TrimResult:
     """Where Newton's method ended, and whether it is accepted."""
     residual, twisting, difference = _errors(solved.point, options)
-    accepted = max(residual, twisting) <= options.accepted_residual and difference <= options.accepted_inflow
+    accepted = (
+        max(residual, twisting) <= options.accepted_residual
+        and difference <= options.accepted_inflow
+    )
     converged = solved.point.size <= 1.0 or accepted
-    return TrimResult(problem, solved.point, residual, converged, solved.passes, factors=solved.factors)
+    return TrimResult(
+        problem, solved.point, residual, converged, solved.passes, factors=solved.factors
+    )
 
 
 def first_point(problem: Problem, system: System, start: Guess) -> Array:
     """(1, numbers, states) of a guess."""
     state, terms = with_given_values(problem, start.state), problem.inflow_terms
     elastic: Array = np.zeros_like(problem.given_torsion)
-    if start.elastic is not None and len(start.elastic) == len(elastic):  # It may have more waves, or fewer.
+    # It may have more waves, or fewer.
+    if start.elastic is not None and len(start.elastic) == len(elastic):
         both = min(elastic.shape[1], start.elastic.shape[1])
         elastic[:, :both] = start.elastic[:, :both]
     inflow = start.inflow

@@ -93,22 +93,31 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     width = disk.dr / len(disk.psi)
     e = elements
     induced = induced_power(problem, (e.induced, e.swirl), e.fz, e.fx)
-    profile = float(width @ (_around(e.u_t, e.fx) - _around(e.u_p, e.fz) + _around(e.u_r, e.fr))) * watts
+    profile = (
+        float(width @ (_around(e.u_t, e.fx) - _around(e.u_p, e.fz) + _around(e.u_r, e.fr))) * watts
+    )
     parasite, climb = outside_power(problem)
     if design.condition.stand is not None:
         lift, drag = wind_forces(elements, total)
-        parasite, climb = -drag * design.condition.advance_ratio * watts, lift * design.vertical_ratio * watts
+        parasite, climb = (
+            -drag * design.condition.advance_ratio * watts,
+            lift * design.vertical_ratio * watts,
+        )
     if problem.air.gust is not None:
         climb += float(width @ _around(problem.air.gust, e.fz)) * watts
     damping = total.damping * watts
     tail, _ = tail_power(design, induced + profile + parasite + climb + damping)
-    return PowerBudget(induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping)
+    return PowerBudget(
+        induced, profile, parasite, tail, shaft=total.torque * watts, climb=climb, damping=damping
+    )
 
 
 def induced_power(problem: Problem, air: tuple[Array, Array], fz: Array, fx: Array) -> float:
     """Σ (λ_i dF_z + u dF_x) [W]; air: λ_i and u."""
     (induced, swirl), width = air, problem.disk.dr / len(problem.disk.psi)
-    return float(width @ (_around(induced, fz) + swirl * fx.sum(axis=1))) * problem.design.power_unit
+    return (
+        float(width @ (_around(induced, fz) + swirl * fx.sum(axis=1))) * problem.design.power_unit
+    )
 
 
 def outside_power(problem: Problem) -> tuple[float, float]:
@@ -117,8 +126,11 @@ def outside_power(problem: Problem) -> tuple[float, float]:
     if design.condition.stand is not None:
         return 0.0, 0.0
     watts, weight = design.power_unit, design.weight_coefficient / design.condition.load_factor
-    pressed = problem.weight - weight  # In a turn n W too, of which `drag_parts` has taken away its part of the path.
-    parasite = (problem.drag * design.condition.advance_ratio + pressed * design.vertical_ratio) * watts
+    # In a turn n W too, of which `drag_parts` has taken away its part of the path.
+    pressed = problem.weight - weight
+    parasite = (
+        problem.drag * design.condition.advance_ratio + pressed * design.vertical_ratio
+    ) * watts
     return parasite, weight * design.vertical_ratio * watts
 
 
@@ -145,11 +157,15 @@ def tail_power(design: Design, main: float) -> tuple[float, float]:
     speed = design.rotor.angular_speed
     share = design.condition.rotor_speed_percent / 100.0
     geared = replace(design.tail_rotor, angular_speed=design.tail_rotor.angular_speed * share)
-    tail, slope = tail_rotor_power(geared, main / speed, design.flight_speed, design.condition.density)
+    tail, slope = tail_rotor_power(
+        geared, main / speed, design.flight_speed, design.condition.density
+    )
     return tail, slope / speed
 
 
-def profile_power_coefficient(solidity: float, drag_coefficient: float, advance_ratio: float) -> float:
+def profile_power_coefficient(
+    solidity: float, drag_coefficient: float, advance_ratio: float
+) -> float:
     """C_P0 = σC_d0/8 (1 + 3µ² + ⅜µ⁴) of a blade from the centre with constant drag, reverse flow included.
 
     It is eq. (3.15) integrated, with its first coefficient σC_d0/4π: printed as σC_d0/2π it would double the σC_d0/8 of
@@ -166,11 +182,15 @@ def hub_moment(problem: Problem, elements: BladeElements) -> HubMoment:
     per revolution cancel. Blades hinged at the centre transfer no moment, because flapping balances the lift.
     """
     design, disk = problem.design, problem.disk
-    moment = disk.r * disk.dr @ elements.fz * (design.thrust_unit * design.rotor.radius / len(disk.psi))
+    moment = (
+        disk.r * disk.dr @ elements.fz * (design.thrust_unit * design.rotor.radius / len(disk.psi))
+    )
     return HubMoment(roll=float(moment @ disk.sin), pitch=-float(moment @ disk.cos))
 
 
-def tail_rotor_power(tail: TailRotor, torque: float, airspeed: float, density: float) -> tuple[float, float]:
+def tail_rotor_power(
+    tail: TailRotor, torque: float, airspeed: float, density: float
+) -> tuple[float, float]:
     """Power [W] that balances a main-rotor torque [N m] of either sign at an airspeed [m/s], and its slope dP/dQ [1/s].
 
     Energy method: induced power T v_i of the effective disk (radius B R), profile power σ c_d/8 (1 + 3µ²) of the
@@ -192,7 +212,9 @@ def tail_rotor_power(tail: TailRotor, torque: float, airspeed: float, density: f
     profile = solidity / 8.0 * (1.0 + 3.0 * mu**2)
     cp = ct * inflow + profile * (d0 + d1 * alpha + d2 * alpha**2)
     cp_slope = (
-        inflow + ct * inflow_slope / tail.tip_loss**2 + profile * (d1 + 2.0 * d2 * alpha) * alpha_slope
+        inflow
+        + ct * inflow_slope / tail.tip_loss**2
+        + profile * (d1 + 2.0 * d2 * alpha) * alpha_slope
     ) * ct_slope
     return cp * unit * tip_speed, cp_slope * unit * tip_speed
 
@@ -217,7 +239,9 @@ def control_loads(problem: Problem, elements: BladeElements) -> tuple[Array, flo
     if problem.wave_rates[0].size > 1:
         work -= float(disk.dr @ _around(loads, problem.wave_rates[0]))
         twist = problem.twist[:, None] + problem.waves
-        modal = torsion.tension.T @ (blade.coordinates @ wave_grid(torsion.functions, len(disk.psi)).at)
+        modal = torsion.tension.T @ (
+            blade.coordinates @ wave_grid(torsion.functions, len(disk.psi)).at
+        )
         work += float(((torsion.own_tension @ twist + modal) * problem.wave_rates[0]).sum())
     return moment, work / len(disk.psi)
 
@@ -230,10 +254,14 @@ def _loads(problem: Problem, elements: BladeElements) -> Array:
     disk, state = problem.disk, elements.state
     harmonic = (np.arange(torsion.functions) + 1) // 2
     elastic = (blade.coordinates * -(harmonic**2)) @ wave_grid(torsion.functions, len(disk.psi)).at
-    acceleration = torsion.radial.T @ elastic - (state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin)
+    acceleration = torsion.radial.T @ elastic - (
+        state.cyclic_1c * disk.cos + state.cyclic_1s * disk.sin
+    )
     if problem.wave_rates[1].size > 1:
         acceleration = acceleration + problem.wave_rates[1]
     lifted: Array | float = state.coning
     if elements.bent is not None:
         lifted = elements.bent.channels[0] + elements.bent.lift / disk.r[:, None]
-    return blade.moment - torsion.inertia[:, None] * acceleration + torsion.tip_mass[:, None] * lifted
+    return (
+        blade.moment - torsion.inertia[:, None] * acceleration + torsion.tip_mass[:, None] * lifted
+    )

@@ -44,7 +44,12 @@ PARTS = ("induced", "profile", "parasite", "tail")
 def by_part(power: PowerBudget) -> Array:
     """The power of each of `PARTS` [W], (4,), the rest in profile power."""
     return np.array(
-        [power.induced, power.total - power.induced - power.parasite - power.tail, power.parasite, power.tail]
+        [
+            power.induced,
+            power.total - power.induced - power.parasite - power.tail,
+            power.parasite,
+            power.tail,
+        ]
     )
 
 
@@ -67,7 +72,9 @@ def power_changes(adjoint: Adjoint) -> dict[str, Array]:
                 if (change := near.along_beddoes(0.01 * row.size)) is not None:
                     changes[WAKE_PATH] = change
                 else:
-                    changes[WAKE_SLOPE] = near.change(near.along(_STEP_SHARE)) / _STEP_SHARE * 0.01 * row.size
+                    changes[WAKE_SLOPE] = (
+                        near.change(near.along(_STEP_SHARE)) / _STEP_SHARE * 0.01 * row.size
+                    )
         elif row.name not in _CHANGES:
             continue
         elif (changed := _CHANGES[row.name](near.problem, _STEP_SHARE * row.size)) is not None:
@@ -89,12 +96,18 @@ class _PowerNearby:
         """Main-rotor power, and its induced and parasite parts [W], (3,)."""
         problem, point = trim.problem, trim.point
         parasite, climb = outside_power(problem)
-        main = float(self._terms.value(point.z, point.q)[0]) * problem.design.power_unit + parasite + climb
+        main = (
+            float(self._terms.value(point.z, point.q)[0]) * problem.design.power_unit
+            + parasite
+            + climb
+        )
         if problem.design.hovering:
             e = trim.elements
             induced = induced_power(problem, (e.induced, e.swirl), e.fz, e.fx)
         else:  # What else the blade elements have takes several times as long.
-            induced = induced_power(problem, induced_air(problem, point)[:2], point.forces[FZ], point.forces[FX])
+            induced = induced_power(
+                problem, induced_air(problem, point)[:2], point.forces[FZ], point.forces[FX]
+            )
         return np.array([main, induced, parasite])
 
     def change(self, problem: Problem) -> Array:
@@ -144,11 +157,15 @@ def _larger(place: str, counts: Callable[[Problem], bool]) -> Change:
     """place: fields that lead to the number, or the numbers, from a design."""
 
     def change(problem: Problem, amount: float) -> Problem | None:
-        value: float | tuple[float, ...] | None = attrgetter(place)(problem.design) if counts(problem) else None
+        value: float | tuple[float, ...] | None = (
+            attrgetter(place)(problem.design) if counts(problem) else None
+        )
         if not value:
             return None
         factor = 1.0 + 0.01 * amount
-        larger = tuple(factor * each for each in value) if isinstance(value, tuple) else factor * value
+        larger = (
+            tuple(factor * each for each in value) if isinstance(value, tuple) else factor * value
+        )
         built = build_problem(replaced(problem.design, place.split("."), larger))
         air = replace(built.air, joined=problem.air.joined)
         return replace(built, course=problem.course, air=air, freedoms=problem.freedoms)
@@ -167,13 +184,21 @@ def _flies(problem: Problem) -> bool:
 def _wake_transport(problem: Problem, amount: float) -> Problem | None:
     if problem.design.hovering or problem.inflow.wake_along is None:
         return None
-    course, part = problem.course, 1.0 - hover_share(problem.design)  # The hover model has no such wake.
-    return replace(problem, course=replace(course, lambda0=course.lambda0 * (1.0 + 0.01 * part * amount)))
+    # The hover model has no such wake.
+    course, part = (
+        problem.course,
+        1.0 - hover_share(problem.design),
+    )
+    return replace(
+        problem, course=replace(course, lambda0=course.lambda0 * (1.0 + 0.01 * part * amount))
+    )
 
 
 def _tip_loss(problem: Problem, amount: float) -> Problem | None:
     """1 − B, the part of the radius that does not lift, goes with 1/f."""
-    if not problem.design.models.tip_loss or (problem.inflow.keeps_tips and not problem.design.hovering):
+    if not problem.design.models.tip_loss or (
+        problem.inflow.keeps_tips and not problem.design.hovering
+    ):
         return None
     return replace(problem, tip_spacing=1.0 / (1.0 + 0.01 * amount))
 
@@ -182,9 +207,12 @@ _CHANGES: Mapping[str, Change] = {
     "section_lift_percent": _section(MORE_LIFT, 0.01),
     "section_moment": _section(MORE_MOMENT),
     "drag_rise_mach": _section(EARLIER_RISE),
-    "drag_area_percent": _larger("fuselage.drag_area", lambda problem: _flies(problem) and not problem.design.hovering),
+    "drag_area_percent": _larger(
+        "fuselage.drag_area", lambda problem: _flies(problem) and not problem.design.hovering
+    ),
     "download_percent": _larger(
-        "fuselage.hover_download", lambda problem: _flies(problem) and problem.design.models.has("download")
+        "fuselage.hover_download",
+        lambda problem: _flies(problem) and problem.design.models.has("download"),
     ),
     "torsional_stiffness_percent": _larger("rotor.blade.structure.torsional_stiffness", _twists),
     "control_stiffness_percent": _larger("rotor.blade.structure.control_stiffness", _twists),
@@ -194,8 +222,12 @@ _CHANGES: Mapping[str, Change] = {
 }
 """By name, in the order of `assets/doubt.toml`."""
 _POWERS: Mapping[str, Callable[[Solution], Array]] = {
-    "induced_power_percent": lambda solution: solution.power.induced * np.array([1, 0, 0, tail_gain(solution) - 1]),
-    "profile_power_percent": lambda solution: solution.power.profile * np.array([0, 1, 0, tail_gain(solution) - 1]),
+    "induced_power_percent": lambda solution: (
+        solution.power.induced * np.array([1, 0, 0, tail_gain(solution) - 1])
+    ),
+    "profile_power_percent": lambda solution: (
+        solution.power.profile * np.array([0, 1, 0, tail_gain(solution) - 1])
+    ),
     "tail_rotor_percent": lambda solution: solution.power.tail * np.array([0, 0, 0, 1]),
 }
 """By name the powers of `PARTS` [W] that are uncertain by a share; of the rotor's, with the tail rotor's for it."""

@@ -39,7 +39,11 @@ def too_stalled(found: Analysis, limit: float) -> bool:
     `SHARE_ERROR` of the limit.
     """
     near = limit - SHARE_ERROR
-    return limit < math.inf and found.linear.stalled_moment > near and found.solution.stalled_moment > limit
+    return (
+        limit < math.inf
+        and found.linear.stalled_moment > near
+        and found.solution.stalled_moment > limit
+    )
 
 
 def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, float | None]:
@@ -56,10 +60,16 @@ def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, f
 
 def _stalled(result: TrimResult) -> float:
     """Stalled part of the lift's moment of a trim; of none, too much."""
-    return stalled_parts(result.problem, result.linear.elements)[1] if result.converged else _UNTRIMMED_SHARE
+    return (
+        stalled_parts(result.problem, result.linear.elements)[1]
+        if result.converged
+        else _UNTRIMMED_SHARE
+    )
 
 
-def _reach(solution: Solution, name: str, easy: float, wanted: float, options: SolverOptions) -> float | None:
+def _reach(
+    solution: Solution, name: str, easy: float, wanted: float, options: SolverOptions
+) -> float | None:
     """How far from an easy value of a quantity towards the one wanted it trims; None where not even there."""
     freedoms, few = solution.freedoms, replace(options, max_passes=FOLLOWING_PASSES)
 

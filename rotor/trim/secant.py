@@ -48,7 +48,10 @@ def _moves(before: object, latest: object, design: object) -> Iterator[tuple[flo
         for one in fields(design):
             if one.compare and one.name not in ("name", "spec"):
                 yield from _moves(*(getattr(given, one.name) for given in each))
-    elif all(isinstance(one, tuple) for one in each) and len({len(one) for one in cast(tuple[Any, ...], each)}) == 1:
+    elif (
+        all(isinstance(one, tuple) for one in each)
+        and len({len(one) for one in cast(tuple[Any, ...], each)}) == 1
+    ):
         for parts in zip(*cast(tuple[tuple[Any, ...], ...], each), strict=True):
             yield from _moves(*parts)
     elif not before == latest == design:

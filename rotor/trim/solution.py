@@ -108,7 +108,9 @@ class DiskFields(OnDisk, ShortRepr):
     def stalled(self) -> Booleans:
         """Beyond the stall angle, or with dynamic stall where the flow is separated over 30 % of the chord; not in
         reverse flow, (elements, azimuths)."""
-        beyond = self.stall_margin < 0.0 if self.unsteady is None else self.unsteady.separation < STALLED
+        beyond = (
+            self.stall_margin < 0.0 if self.unsteady is None else self.unsteady.separation < STALLED
+        )
         return beyond & (self.u_t >= 0.0)
 
 
@@ -153,7 +155,10 @@ class Deflections:
     def at(self, r: Array, psi: float) -> tuple[Array, Array]:
         """Deflection up and forward [m] at stations r/R of a blade at ψ [rad], (stations,) each; 0 inside the root."""
         waves = waves_at(self.up.shape[1], np.array([psi]))[:, 0]
-        up, forward = (np.interp(r, self.r, deflection @ waves, left=0.0) for deflection in (self.up, self.forward))
+        up, forward = (
+            np.interp(r, self.r, deflection @ waves, left=0.0)
+            for deflection in (self.up, self.forward)
+        )
         return up, forward
 
 
@@ -217,7 +222,11 @@ class Solution:
     """How blades bend; None where they flap as rigid blades."""
 
     def __getstate__(self) -> dict[str, Any]:
-        small = {"start": replace(self.start, box=None, structure=None), "before": None, "evaluated": None}
+        small = {
+            "start": replace(self.start, box=None, structure=None),
+            "before": None,
+            "evaluated": None,
+        }
         return self.__dict__ | small
 
     def light(self) -> "Solution":
@@ -287,11 +296,25 @@ class Solution:
         return f"{self.design}\n{state}\n{power}"
 
     def _repr_html_(self) -> str:
-        state = (f"{self.status.value}: {self.message}", *(f"Caveat: {caveat.sentence}" for caveat in self.caveats))
-        powers = {name: value for name, value in vars(self.last_power).items() if value and name != "shaft"}
+        state = (
+            f"{self.status.value}: {self.message}",
+            *(f"Caveat: {caveat.sentence}" for caveat in self.caveats),
+        )
+        powers = {
+            name: value
+            for name, value in vars(self.last_power).items()
+            if value and name != "shaft"
+        }
         symbol, size = power_unit(self.last_power.total)
-        rows = ((name, value / size) for name, value in ({"total": self.last_power.total} | powers).items())
-        shown = table((Column("power", LEFT), Column(symbol, "z.1f")), rows).html() if self.converged else None
+        rows = (
+            (name, value / size)
+            for name, value in ({"total": self.last_power.total} | powers).items()
+        )
+        shown = (
+            table((Column("power", LEFT), Column(symbol, "z.1f")), rows).html()
+            if self.converged
+            else None
+        )
         return group(tag("p", str(self.design)), shown, *(tag("p", words) for words in state))
 
     @property
@@ -347,7 +370,11 @@ class Solution:
     def induced_power_factor(self) -> float | None:
         """κ = C_Pi/(C_T λ0): induced power over that of uniform loading by momentum theory; None without thrust."""
         ideal = self.ct * self.controls.lambda0
-        return self.last_power.induced / (ideal * self.design.power_unit) if abs(ideal) > _NO_THRUST else None
+        return (
+            self.last_power.induced / (ideal * self.design.power_unit)
+            if abs(ideal) > _NO_THRUST
+            else None
+        )
 
     @property
     def lift_to_drag(self) -> float | None:
@@ -355,7 +382,11 @@ class Solution:
         rotor_power = self.last_power.induced + self.last_power.profile
         if self.design.hovering or rotor_power <= 0.0:
             return None
-        lift = self.design.condition.load if self.design.condition.stand is None else self.lift_and_drag[0]
+        lift = (
+            self.design.condition.load
+            if self.design.condition.stand is None
+            else self.lift_and_drag[0]
+        )
         return lift * self.design.airspeed / rotor_power
 
     def require(self) -> "Solution":

@@ -23,7 +23,11 @@ Start = Solution | Guess | None
 
 
 def solve(
-    design: Design, start: Start = None, options: SolverOptions = DEFAULT_OPTIONS, *, freedoms: Sequence[Freedom] = ()
+    design: Design,
+    start: Start = None,
+    options: SolverOptions = DEFAULT_OPTIONS,
+    *,
+    freedoms: Sequence[Freedom] = (),
 ) -> Solution:
     """Trim a design: the controls, inflow and blade motion at which forces and moments balance.
 
@@ -53,7 +57,11 @@ def solve(
 
 @one_blas_thread()
 def analyse(
-    design: Design, start: Start = None, options: SolverOptions = DEFAULT_OPTIONS, *, freedoms: Sequence[Freedom] = ()
+    design: Design,
+    start: Start = None,
+    options: SolverOptions = DEFAULT_OPTIONS,
+    *,
+    freedoms: Sequence[Freedom] = (),
 ) -> Analysis:
     """`solve`, with the equations at the solution kept: for gradients, `doubt`, `hub_loads`. Raises as `solve` does."""
     if not isinstance(start, Solution | Guess | None):  # pyright: ignore[reportUnnecessaryIsInstance]
@@ -61,7 +69,11 @@ def analyse(
     found = _trim_branch(require_design(design), start, options, freedoms)
     solution = replace(found.solution, before=_begun(design, start))
     found = Analysis(solution, found.linear)
-    if not solution.converged or design.hovering or not too_stalled(found, stall_limit(found.linear.problem)):
+    if (
+        not solution.converged
+        or design.hovering
+        or not too_stalled(found, stall_limit(found.linear.problem))
+    ):
         return found
     # Stalled sections carry more of the lift's moment than on rotors that were compared with measurement.
     ends = largest(solution, options) if options.remedy else (None, None)
@@ -69,7 +81,9 @@ def analyse(
     return Analysis(replace(solution, status=Status.NOT_CONVERGED, message=sentence), found.linear)
 
 
-def _trim_branch(design: Design, start: Start, options: SolverOptions, freedoms: Sequence[Freedom]) -> Analysis:
+def _trim_branch(
+    design: Design, start: Start, options: SolverOptions, freedoms: Sequence[Freedom]
+) -> Analysis:
     """The trim of least power, however much is stalled."""
     begin = time.perf_counter()
     problem = trim_problem(design, freedoms)
@@ -84,18 +98,26 @@ def _trim_branch(design: Design, start: Start, options: SolverOptions, freedoms:
         return assemble(hover(problem, guess, options), begin)
     result = trim_on_course(problem, guess, options, stall_limit(problem))
     found = assemble(result, begin)
-    if design.condition.stand is not None or result.led or not (result.converged and is_suspect_branch(found)):
+    if (
+        design.condition.stand is not None
+        or result.led
+        or not (result.converged and is_suspect_branch(found))
+    ):
         return found
     return _least_of_branches(found, stall_limit(problem), options)
 
 
 def _least_of_branches(found: Analysis, most_stalled: float, options: SolverOptions) -> Analysis:
     """Of a trim and one led from easier conditions that of less power; a rotor deep in stall has several."""
-    ahead = None if options.asked_to_stop else trim_along(found.linear.problem, options, most_stalled)
+    ahead = (
+        None if options.asked_to_stop else trim_along(found.linear.problem, options, most_stalled)
+    )
     if ahead is None:
         return found
     first = found.solution
-    other = assemble(replace(ahead, passes=first.passes + ahead.passes), time.perf_counter() - first.elapsed)
+    other = assemble(
+        replace(ahead, passes=first.passes + ahead.passes), time.perf_counter() - first.elapsed
+    )
     if not first.converged or not other.solution.converged:
         return other if other.solution.converged else found
     return other if other.solution.power.total < first.power.total else found
@@ -112,7 +134,10 @@ def guess_of(design: Design, start: Start) -> Guess | None:
         return start
     if not start.converged or (start.design.hovering and not design.hovering):
         return None
-    if start.before is None or (steps := steps_ahead(start.before[0], start.design, design)) is None:
+    if (
+        start.before is None
+        or (steps := steps_ahead(start.before[0], start.design, design)) is None
+    ):
         return start.start
     return start.start.ahead(start.before[1], steps)
 
@@ -121,4 +146,6 @@ def _begun(design: Design, start: Start) -> tuple[Design, Guess] | None:
     """What a solution keeps of the one that it was started from: of one for the same design, what that one keeps."""
     if not isinstance(start, Solution) or not start.converged:
         return None
-    return start.before if start.design == design else (start.design, replace(start.start, box=None))
+    return (
+        start.before if start.design == design else (start.design, replace(start.start, box=None))
+    )

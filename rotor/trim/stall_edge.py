@@ -63,7 +63,9 @@ def _nearest(solution: Solution, put: _Put, step: float) -> Generator[None, None
             elif (there.least_margin < 0.0) == stalls:
                 ends[side] = change, there
             else:
-                return _root(solution.design, put, (before, near), (change, there), _FINENESS * step)
+                return _root(
+                    solution.design, put, (before, near), (change, there), _FINENESS * step
+                )
     return None
 
 
@@ -76,7 +78,11 @@ def _trim(put: _Put, design: Design, change: float, near: Solution) -> Solution 
 
 
 def _root(
-    design: Design, put: _Put, inner: tuple[float, Solution], outer: tuple[float, Solution], fineness: float
+    design: Design,
+    put: _Put,
+    inner: tuple[float, Solution],
+    outer: tuple[float, Solution],
+    fineness: float,
 ) -> float | None:
     """Between two trims of which one has a stalled area, within `fineness`; None where none trims between them."""
     known = dict((inner, outer))

@@ -83,7 +83,9 @@ def caveats(trim: CaveatInputs) -> Iterator[Caveat]:
     """The limits of validity that a converged solution exceeds, in the order in which they are listed."""
     for remark in trim.design.aircraft.remarks:
         yield Caveat("rotor-file", remark)
-    found = _of_the_rotor(trim) | _of_the_models(trim) | _of_the_flight(trim) | _of_the_sections(trim)
+    found = (
+        _of_the_rotor(trim) | _of_the_models(trim) | _of_the_flight(trim) | _of_the_sections(trim)
+    )
     yield from (Caveat(name, sentence) for name, sentence in found.items())
 
 
@@ -91,7 +93,9 @@ def _of_the_rotor(trim: CaveatInputs) -> dict[str, str]:
     design, models = trim.design, trim.design.models
     found = dict[str, str]()
     if design.aircraft.hub == "teetering" and design.rotor.precone is None:
-        found["teetering"] = "A teetering hub has built-in coning; here the blades cone as if hinged at the shaft."
+        found["teetering"] = (
+            "A teetering hub has built-in coning; here the blades cone as if hinged at the shaft."
+        )
     if design.twist != design.rotor.builtin_twist:
         root, tip = design.twist(np.array([design.rotor.blade.root_cutout, 1.0])).tolist()
         if abs(tip - root) > LARGEST_BUILT_TWIST:
@@ -131,7 +135,9 @@ def _of_the_models(trim: CaveatInputs) -> dict[str, str]:
     found = dict[str, str]()
     if off := switched_off(models):
         names = ", ".join(switch.title.lower() for switch in off)
-        found["switched-off"] = f"Switched off: {names}. The result is for teaching, not for the aircraft."
+        found["switched-off"] = (
+            f"Switched off: {names}. The result is for teaching, not for the aircraft."
+        )
     if not design.flaps and trim.mu > 0.0:
         found["rigid-blades"] = _rigid(trim.solution.hub_moment)
         if trim.fixed_inflow:
@@ -146,8 +152,11 @@ def _of_the_models(trim: CaveatInputs) -> dict[str, str]:
         found["root-pitch-rests"] = (
             "Root pitch at harmonics of rotor speed is off in hover, where nothing depends on azimuth."
         )
-    highest = max((harmonic.per_rev for wave in design.pitch_waves for harmonic in wave.harmonics), default=0)
-    frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)  # ωc/2V at 0.75 R.
+    highest = max(
+        (harmonic.per_rev for wave in design.pitch_waves for harmonic in wave.harmonics), default=0
+    )
+    # ωc/2V at 0.75 R.
+    frequency = highest * design.rotor.reference_chord / (1.5 * design.rotor.radius)
     if frequency > FAST_PITCH and not trim.problem.unsteady:
         found["fast-pitch"] = (
             f"At {highest}/rev the reduced frequency at 0.75 R is {frequency:.2f}, but section data are steady: only "
@@ -171,7 +180,9 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
     design, mu, power = trim.design, trim.mu, trim.solution.last_power
     found = dict[str, str]()
     if 0.0 < mu < LOW_SPEED and trim.fixed_inflow:
-        found["low-speed-inflow"] = f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
+        found["low-speed-inflow"] = (
+            f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
+        )
     if 0.0 < mu < LOWEST_SPEED and not trim.fixed_inflow:
         found["low-speed-inflow"] = (
             f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}."
@@ -190,7 +201,8 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
                 f"inflow exceeds momentum theory above {-VORTEX_RING_ONSET:g}, and the vortex ring state begins at "
                 f"{edge:.2f}."
             )
-    if power.main_rotor < 0.0 and design.models.trim != "free-rotor":  # A free rotor's power is zero but for rounding.
+    # A free rotor's power is zero but for rounding.
+    if power.main_rotor < 0.0 and design.models.trim != "free-rotor":
         found["beyond-autorotation"] = (
             f"The air drives the rotor{_autorotation(design, power.main_rotor)}: power is negative, and with the "
             "engine off the rotor speeds up."
@@ -229,7 +241,11 @@ def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
         if fields.unsteady is not None:
             what = "the lags of dynamic stall are those of a NACA 0012"
         found["stall"] = f"{100.0 * stalled:.1f} % of the disk is stalled; {what}."
-    if design.models.has("dynamic_stall") and not trim.problem.inflow.pointwise and not design.hovering:
+    if (
+        design.models.has("dynamic_stall")
+        and not trim.problem.inflow.pointwise
+        and not design.hovering
+    ):
         found["no-dynamic-stall"] = (
             f"The inflow {design.models.inflow} balances the load at each point separately, which excludes dynamic "
             "stall: sections are steady here."
@@ -275,7 +291,9 @@ def _held_reynolds(trim: CaveatInputs) -> str:
         for beyond, end in ((own & (number < low), low), (own & (number > high), high)):
             if beyond.any():
                 first, last = (f"{r[beyond][k]:.2f}" for k in (0, -1))
-                least, most = (f"{value:,.0f}" for value in (number[beyond].min(), number[beyond].max()))
+                least, most = (
+                    f"{value:,.0f}" for value in (number[beyond].min(), number[beyond].max())
+                )
                 where = f"From {first} to {last} R" if first != last else f"At {first} R"
                 words.append(
                     f"{where} the Reynolds number is {least if least == most else f'{least} to {most}'}; the data of "
@@ -297,7 +315,11 @@ def _beyond_stops(trim: CaveatInputs) -> list[str]:
     stops, state, words = trim.design.aircraft.controls, trim.solution.controls, list[str]()
     if stops is None:
         return words
-    ranges = {"collective": stops.collective, "lateral": stops.lateral, "longitudinal": stops.longitudinal}
+    ranges = {
+        "collective": stops.collective,
+        "lateral": stops.lateral,
+        "longitudinal": stops.longitudinal,
+    }
     for name, place in stops.places(state.collective, state.cyclic_1c, state.cyclic_1s).items():
         if not 0.0 <= place <= 1.0:
             low, high = (math.degrees(end) for end in ranges[name])
@@ -311,7 +333,9 @@ def _nearest_to_stall(margin: Array, r: Array) -> str:
     least = margin.min(axis=1)
     at = int(least.argmin())
     side = "below" if least[at] >= 0.0 else "above"
-    return f"At {r[at]:.2f} R the blade is {abs(math.degrees(least[at])):.1f}° {side} its stall angle."
+    return (
+        f"At {r[at]:.2f} R the blade is {abs(math.degrees(least[at])):.1f}° {side} its stall angle."
+    )
 
 
 def _rigid(moment: HubMoment) -> str:
@@ -340,12 +364,22 @@ def implausible(problem: Problem, elements: BladeElements, total: DiskSums) -> s
     state, design = elements.state, problem.design
     lighter = _advice(design)
     checks = (
-        ("coning", state.coning, LARGEST_FLAPPING, f"check the blade's mass and flap inertia, or {lighter}"),
+        (
+            "coning",
+            state.coning,
+            LARGEST_FLAPPING,
+            f"check the blade's mass and flap inertia, or {lighter}",
+        ),
         ("flapping", math.hypot(state.flap_1c, state.flap_1s), LARGEST_FLAPPING, lighter),
         ("collective", state.collective, LARGEST_CONTROL, lighter),
         ("cyclic", math.hypot(state.cyclic_1c, state.cyclic_1s), LARGEST_CONTROL, lighter),
         ("shaft tilt", state.shaft_tilt, LARGEST_TILT, _HEAVIER),
-        ("elastic twist", _largest_twist(elements), LARGEST_FLAPPING, f"stiffen the blade, or {lighter}"),
+        (
+            "elastic twist",
+            _largest_twist(elements),
+            LARGEST_FLAPPING,
+            f"stiffen the blade, or {lighter}",
+        ),
     )
     for name, value, largest, remedy in checks:
         if not abs(value) <= largest:
@@ -375,7 +409,11 @@ def _advice(design: Design) -> str:
     """What brings a flight or a test nearer to a trim."""
     condition = design.condition
     if condition.stand is not None:
-        given = "change the collective" if condition.stand.collective is not None else "lower the thrust"
+        given = (
+            "change the collective"
+            if condition.stand.collective is not None
+            else "lower the thrust"
+        )
         return given if design.hovering else f"{given} or the advance ratio"
     if _tilt(design) > LARGEST_TILT:
         return _HEAVIER
@@ -395,7 +433,9 @@ def _largest_twist(elements: BladeElements) -> float:
 def _share(stalled: float, reached: float) -> str:
     """How much of the disk is stalled: at the last trim found, or where the last attempt ended."""
     where = "there" if 0.0 < reached < 1.0 else "in the last attempt"
-    return f" {100.0 * stalled:.0f} % of the disk is stalled {where}." if stalled > STALL_SHARE else ""
+    return (
+        f" {100.0 * stalled:.0f} % of the disk is stalled {where}." if stalled > STALL_SHARE else ""
+    )
 
 
 def failure_sentence(design: Design, reached: float, stalled: float) -> str:
@@ -404,7 +444,9 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, reached, stalled)
     share, advice = _share(stalled, reached), _advice(design)
-    what = ", ".join((f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *in_words(design.unusual)))
+    what = ", ".join(
+        (f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *in_words(design.unusual))
+    )
     if design.hovering:
         return (
             f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that {what} "
@@ -435,8 +477,14 @@ def stalled_sentence(design: Design, stalled: float, mass: float | None, mu: flo
     remedy = f"{advice[:1].upper()}{advice[1:]}."
     if design.condition.stand is None:
         largest = [f"{math.floor(mass)} kg at this speed"] if mass is not None else []
-        largest += [f"advance ratio {math.floor(1e3 * mu) / 1e3:.3f} at this mass"] if mu is not None else []
-        remedy = f"The largest that trim are {' and '.join(largest)}." if len(largest) > 1 else remedy
+        largest += (
+            [f"advance ratio {math.floor(1e3 * mu) / 1e3:.3f} at this mass"]
+            if mu is not None
+            else []
+        )
+        remedy = (
+            f"The largest that trim are {' and '.join(largest)}." if len(largest) > 1 else remedy
+        )
         remedy = f"The largest that trims is {largest[0]}." if len(largest) == 1 else remedy
     return (
         f"Not trimmed: {100.0 * stalled:.0f} % of the lift's moment about the hub comes from stalled sections; beyond "
@@ -459,6 +507,8 @@ def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float)
     if 0.0 < reached < 1.0 and not design.hovering:  # In hover it is the share of the thrust.
         near = easier_condition(design, reached).stand
         how_far = (
-            f" The last trim found on the way there is at C_T/σ {near.ct_over_sigma:.4f}." if near is not None else ""
+            f" The last trim found on the way there is at C_T/σ {near.ct_over_sigma:.4f}."
+            if near is not None
+            else ""
         )
     return f"Not trimmed: {what} with C_T/σ {wanted:.4f}.{how_far}{share} Lower the thrust or the advance ratio."

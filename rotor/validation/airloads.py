@@ -73,11 +73,21 @@ checked: 20 N m is 0.3 % of thrust times radius, and the other sign moves power 
 CASES = (
     HART2_BASELINE,
     FlownCase(
-        "hart2-airloads", "MN", "hart2", _tunnel(1.1931, 342.2, 109.01, 30.0) | {"pitch_per_rev": ((3, 0.8, 300.0),)}
+        "hart2-airloads",
+        "MN",
+        "hart2",
+        _tunnel(1.1931, 342.2, 109.01, 30.0) | {"pitch_per_rev": ((3, 0.8, 300.0),)},
     ),
-    FlownCase("gazelle-airloads", "FC1", "gazelle", {"mu": 0.14, "mass_kg": 1985.0, "altitude_m": 317.0}),
-    FlownCase("gazelle-airloads", "FC2", "gazelle", {"mu": 0.362, "mass_kg": 1934.0, "altitude_m": 1521.0}),
-    *(FlownCase(PITCH_LINK, f"µ {mu:.2f}", "uh60a", _pitch_link_test(mu)) for mu in PITCH_LINK_SPEEDS),
+    FlownCase(
+        "gazelle-airloads", "FC1", "gazelle", {"mu": 0.14, "mass_kg": 1985.0, "altitude_m": 317.0}
+    ),
+    FlownCase(
+        "gazelle-airloads", "FC2", "gazelle", {"mu": 0.362, "mass_kg": 1934.0, "altitude_m": 1521.0}
+    ),
+    *(
+        FlownCase(PITCH_LINK, f"µ {mu:.2f}", "uh60a", _pitch_link_test(mu))
+        for mu in PITCH_LINK_SPEEDS
+    ),
 )
 """MN: 0.8° of pitch at 3/rev at the root, for least noise. NASA TM-88351 for the Gazelle."""
 TESTS = tuple(dict.fromkeys(case.test for case in CASES))
@@ -139,7 +149,9 @@ class CurveAgreement:
 
     def phase_deg(self, n: int, *, measured: bool = False) -> float:
         """φ of A cos(nψ − φ), −180 to 180°."""
-        return math.degrees(cmath.phase(wave_amplitude(self.measured_waves if measured else self.waves, n)))
+        return math.degrees(
+            cmath.phase(wave_amplitude(self.measured_waves if measured else self.waves, n))
+        )
 
     def ratio(self, n: int) -> float:
         """Computed amplitude over the measured one, less 1 [-]."""
@@ -147,7 +159,9 @@ class CurveAgreement:
 
     def late_deg(self, n: int) -> float:
         """Computed phase less the measured one, −180 to 180°."""
-        return math.degrees(cmath.phase(wave_amplitude(self.waves, n) / wave_amplitude(self.measured_waves, n)))
+        return math.degrees(
+            cmath.phase(wave_amplitude(self.waves, n) / wave_amplitude(self.measured_waves, n))
+        )
 
     def miss(self, n: int) -> float:
         """|computed − measured| of harmonic n as vectors, over the measured amplitude [-]."""
@@ -157,8 +171,15 @@ class CurveAgreement:
     def to_dict(self) -> dict[str, Any]:
         """The agreement as `validate --json` prints it."""
         names = ("quantity", "r", "correlation", "rms", "measured_rms", "mean", "measured_mean")
-        waves = {"harmonics": self.waves.tolist(), "measured_harmonics": self.measured_waves.tolist()}
-        return {"test": self.case.test, "case": self.case.name} | {name: getattr(self, name) for name in names} | waves
+        waves = {
+            "harmonics": self.waves.tolist(),
+            "measured_harmonics": self.measured_waves.tolist(),
+        }
+        return (
+            {"test": self.case.test, "case": self.case.name}
+            | {name: getattr(self, name) for name in names}
+            | waves
+        )
 
 
 def measured_curves() -> tuple[MeasuredCurve, ...]:
@@ -184,12 +205,18 @@ def _curves(case: FlownCase) -> Iterator[MeasuredCurve]:
         psi_deg, load = columns(rows, "psi_deg", case.name.removeprefix("µ "))
         yield MeasuredCurve(case, "pitch_link", 0.0, np.radians(psi_deg), load)
         return
-    rows = [row for row in csv_rows(asset_path("measured/gazelle_airloads.csv")) if row["case"] == case.name]
+    rows = [
+        row
+        for row in csv_rows(asset_path("measured/gazelle_airloads.csv"))
+        if row["case"] == case.name
+    ]
     for r in sorted({float(row["r"]) for row in rows}):
         psi_deg, cl = columns([row for row in rows if float(row["r"]) == r], "psi_deg", "cl")
         psi = np.radians(psi_deg)
         yield MeasuredCurve(case, "cl", r, psi, cl)
-        yield MeasuredCurve(case, "cl_u2", r, psi, cl * (r + case.conditions["mu"] * np.sin(psi)) ** 2)
+        yield MeasuredCurve(
+            case, "cl_u2", r, psi, cl * (r + case.conditions["mu"] * np.sin(psi)) ** 2
+        )
 
 
 def columns(rows: Sequence[Mapping[str, str]], *names: str) -> list[Array]:
@@ -205,10 +232,16 @@ def computed_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, 
         return np.linspace(0.0, 2.0 * math.pi, len(twist), endpoint=False), np.degrees(twist)
     if measured.quantity == "tip_flap":
         blade, state = solution.design.rotor.blade, solution.controls
-        flapping = state.coning + state.flap_1c * np.cos(disk.psi) + state.flap_1s * np.sin(disk.psi)
+        flapping = (
+            state.coning + state.flap_1c * np.cos(disk.psi) + state.flap_1s * np.sin(disk.psi)
+        )
         return disk.psi, (1.0 - blade.flap_hinge) * (flapping - blade.flap_rest)
     if measured.quantity == "pitch_link":
-        load = np.zeros(len(disk.psi)) if solution.elastic is None else solution.elastic.pitch_link_load
+        load = (
+            np.zeros(len(disk.psi))
+            if solution.elastic is None
+            else solution.elastic.pitch_link_load
+        )
         return disk.psi, load.mean() - load
     loads = distribution(solution)
     match measured.quantity:
@@ -221,7 +254,11 @@ def computed_curve(measured: MeasuredCurve, solution: Solution) -> tuple[Array, 
         case "cl":
             field_ = disk.cl
         case _:
-            field_ = disk.cl * (disk.r[:, None] + solution.design.condition.advance_ratio * np.sin(disk.psi)) ** 2
+            field_ = (
+                disk.cl
+                * (disk.r[:, None] + solution.design.condition.advance_ratio * np.sin(disk.psi))
+                ** 2
+            )
     after = int(np.clip(np.searchsorted(disk.r, measured.r), 1, len(disk.r) - 1))
     share = (measured.r - disk.r[after - 1]) / (disk.r[after] - disk.r[after - 1])
     return disk.psi, (1.0 - share) * field_[after - 1] + share * field_[after]
@@ -272,8 +309,15 @@ def airload_agreement(tests: tuple[str, ...] = TESTS) -> Iterator[CurveAgreement
 
 def agreement(measured: MeasuredCurve, solution: Solution) -> CurveAgreement:
     """Agreement of a measured curve with the curve that a solution gives."""
-    theirs, computed = measured.waves, harmonics(*computed_curve(measured, solution), measured.highest)
-    wave, other = computed[1:], theirs[1:]  # By Parseval's theorem sums over harmonics are means over the azimuth.
+    theirs, computed = (
+        measured.waves,
+        harmonics(*computed_curve(measured, solution), measured.highest),
+    )
+    # By Parseval's theorem sums over harmonics are means over the azimuth.
+    wave, other = (
+        computed[1:],
+        theirs[1:],
+    )
     size = math.sqrt((wave @ wave) * (other @ other))
     return CurveAgreement(
         case=measured.case,

@@ -23,9 +23,20 @@ from rotor.trim.solve import solve
 from rotor.validation.trust import TrustRow, TrustSet
 
 _XV15 = ("xv15-hover", "xv15-forward-15deg", "xv15-forward-0deg", "xv15-forward-figure-18")
-_CASTLES_GRAY = [f"castles-gray{which}" for which in ("-hover", "-4ft", "-tapered", "", "-twisted", "-twist-effect")]
+_CASTLES_GRAY = [
+    f"castles-gray{which}"
+    for which in ("-hover", "-4ft", "-tapered", "", "-twisted", "-twist-effect")
+]
 _CARADONNA_TUNG = ("caradonna-tung-lift", "caradonna-tung")
-SETS = (*_XV15, "pca2", "knight-hefner-3", "knight-hefner-4", *_CARADONNA_TUNG, *_CASTLES_GRAY, "uh60a-hover")
+SETS = (
+    *_XV15,
+    "pca2",
+    "knight-hefner-3",
+    "knight-hefner-4",
+    *_CARADONNA_TUNG,
+    *_CASTLES_GRAY,
+    "uh60a-hover",
+)
 """Names of the sets, in the order in which they are shown."""
 FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "uh60a-pitch-link", "flown-power")
 """Names of the sets that are not single points with a scatter: `rotor.validation.inflow`, `airloads` and `flown`."""
@@ -91,7 +102,9 @@ class MeasuredSet:
 
     def counts(self, point: dict[str, float]) -> bool:
         """Whether a point lies within the ranges that count."""
-        return all(low - 1e-12 <= point[name] <= high + 1e-12 for name, (low, high) in self.judged.items())
+        return all(
+            low - 1e-12 <= point[name] <= high + 1e-12 for name, (low, high) in self.judged.items()
+        )
 
     @property
     def unit(self) -> str:
@@ -115,7 +128,9 @@ class MeasuredSet:
         """The target in words; empty where there is none."""
         if self.indicative:
             return ""
-        size = f"{self.tolerance:g}" if self.tolerance is not None else f"{self.tolerance_percent:g} %"
+        size = (
+            f"{self.tolerance:g}" if self.tolerance is not None else f"{self.tolerance_percent:g} %"
+        )
         ranges = [f"{name} {low:g}…{high:g}" for name, (low, high) in self.judged.items()]
         return f"{size} {'for ' + ', '.join(ranges) if ranges else 'everywhere'}"
 
@@ -177,25 +192,39 @@ class Comparison:
     @property
     def judged(self) -> tuple[ComparedPoint, ...]:
         """The points within the ranges that count."""
-        return tuple(point for point in self.points if self.measured.counts({**point.given, **point.measured}))
+        return tuple(
+            point
+            for point in self.points
+            if self.measured.counts({**point.given, **point.measured})
+        )
 
     @property
     def counted(self) -> str:
         """What is compared at how many points, in words."""
         of = f" of {len(self.points)}" if len(self.judged) < len(self.points) else ""
-        return f"{LABELS[self.measured.quantity].removesuffix(' [%]')}, {len(self.judged)} points{of}"
+        return (
+            f"{LABELS[self.measured.quantity].removesuffix(' [%]')}, {len(self.judged)} points{of}"
+        )
 
     @cached_property
     def rms_percent(self) -> float | None:
         """Root mean square of the errors of the judged points; None where one of them does not trim."""
         errors = [point.error_percent for point in self.judged]
         known = [error for error in errors if error is not None]
-        return None if len(known) < len(errors) else math.sqrt(sum(error**2 for error in known) / len(known))
+        return (
+            None
+            if len(known) < len(errors)
+            else math.sqrt(sum(error**2 for error in known) / len(known))
+        )
 
     @property
     def worst_percent(self) -> float | None:
         """The error of the largest size among the judged points that trim."""
-        return max((one.error_percent for one in self.judged if one.error_percent is not None), key=abs, default=None)
+        return max(
+            (one.error_percent for one in self.judged if one.error_percent is not None),
+            key=abs,
+            default=None,
+        )
 
     @property
     def worst(self) -> str:
@@ -203,7 +232,11 @@ class Comparison:
         if self.measured.tolerance is None:
             return f"{self.worst_percent:+.1f} {self.measured.unit}"
         name = self.measured.quantity
-        differences = (one.computed[name] - one.measured[name] for one in self.judged if one.computed is not None)
+        differences = (
+            one.computed[name] - one.measured[name]
+            for one in self.judged
+            if one.computed is not None
+        )
         return f"{max(differences, key=abs):+.5f}"
 
     @property
@@ -225,7 +258,8 @@ class Comparison:
             "inflow": self.inflow,
             "quantity": rows.quantity,
             "points": [
-                {name: getattr(point, name) for name in shown} | ({"message": point.message} if point.message else {})
+                {name: getattr(point, name) for name in shown}
+                | ({"message": point.message} if point.message else {})
                 for point in self.points
             ],
             "rms_percent": self.rms_percent,
@@ -253,9 +287,13 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
     solution = solve(design_at(measured, point, base))
     wanted, judged = targets[measured.quantity], measured.counts(point) and not measured.indicative
     if not solution.converged:
-        return ComparedPoint(given, targets, None, solution.message, None, False, judged, not judged)
+        return ComparedPoint(
+            given, targets, None, solution.message, None, False, judged, not judged
+        )
     r = given.get("r", math.nan)
-    computed = {name: quantity_of(name, solution, measured, r) for name in targets if name != "scatter"}
+    computed = {
+        name: quantity_of(name, solution, measured, r) for name in targets if name != "scatter"
+    }
     value = computed[measured.quantity]
     error = value - wanted if measured.against else 100.0 * (value / wanted - 1.0)
     within = abs(value - wanted) <= measured.scatter_of(point)
@@ -265,12 +303,17 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
 
 def measured_set(name: str) -> TrustSet:
     """A set of measured points for the trust page; every one is trimmed here."""
-    comparisons = [compare(load_set(name)), *(compare(load_set(name), inflow) for inflow in ALSO.get(name, ()))]
+    comparisons = [
+        compare(load_set(name)),
+        *(compare(load_set(name), inflow) for inflow in ALSO.get(name, ())),
+    ]
     measured, rows = comparisons[0].measured, tuple(map(_row, comparisons))
     text, by_pitch = [_constant(measured), measured.note], ()
     if measured.given[0] == "collective_deg":
         by_pitch, missing = zip(*_by_pitch(comparisons[0]), strict=True)
-        text.append(f"The measured thrust needs less collective, on average by {', '.join(missing)}.")
+        text.append(
+            f"The measured thrust needs less collective, on average by {', '.join(missing)}."
+        )
     return TrustSet(
         name=name,
         title=measured.title,
@@ -292,7 +335,10 @@ def _by_pitch(comparison: Comparison) -> Iterator[tuple[TrustRow, str]]:
         here = [k for k, point in enumerate(measured.points) if point["collective_deg"] == pitch]
         less = -float(np.mean([at_thrust.points[k].error_percent or math.nan for k in here]))
         part = replace(comparison, points=tuple(comparison.points[k] for k in here))
-        yield _row(part, f"Collective {pitch:g}°: "), f"{0.01 * less * pitch:.1f}° ({less:.0f} %) at {pitch:g}°"
+        yield (
+            _row(part, f"Collective {pitch:g}°: "),
+            f"{0.01 * less * pitch:.1f}° ({less:.0f} %) at {pitch:g}°",
+        )
 
 
 def _row(comparison: Comparison, where: str = "") -> TrustRow:
@@ -310,7 +356,11 @@ def _row(comparison: Comparison, where: str = "") -> TrustRow:
         test="rotor/validation/test_validation.py::test_rows_of_the_trust_page",
         note=comparison.why_missed,
         target=measured.target,
-        verdict="no target" if comparison.passed is None else "met" if comparison.passed else "missed",
+        verdict="no target"
+        if comparison.passed is None
+        else "met"
+        if comparison.passed
+        else "missed",
     )
 
 
@@ -324,12 +374,16 @@ def comparison_chart(comparisons: list[Comparison]) -> Chart:
     series: list[Series] = [Points("measured", places, values, scatter=scatter)]
     for k, comparison in enumerate(comparisons, start=1):
         computed = sorted(
-            (point.given[along], point.computed[quantity]) for point in comparison.points if point.computed is not None
+            (point.given[along], point.computed[quantity])
+            for point in comparison.points
+            if point.computed is not None
         )
         x, y = zip(*computed, strict=True)
         alone = len(set(x)) == len(x)
         label = f"computed, inflow {comparison.inflow}"
-        series.append(Line(label, x, y, k, dots=True) if alone else Points(label, x, y, k, mark="cross"))
+        series.append(
+            Line(label, x, y, k, dots=True) if alone else Points(label, x, y, k, mark="cross")
+        )
     return Chart(measured.title, Axis(LABELS[along]), Axis(LABELS[quantity]), tuple(series))
 
 
@@ -345,14 +399,21 @@ def _points(comparisons: list[Comparison]) -> tuple[tuple[str, ...], ...]:
     measured, quantity = comparisons[0].measured, comparisons[0].measured.quantity
     head = [*(LABELS[name] for name in measured.varied), "Measured", "Scatter"]
     rows = [
-        [*(f"{point[name]:.5g}" for name in (*measured.varied, quantity)), f"{measured.scatter_of(point):.2g}"]
+        [
+            *(f"{point[name]:.5g}" for name in (*measured.varied, quantity)),
+            f"{measured.scatter_of(point):.2g}",
+        ]
         for point in measured.points
     ]
     for comparison in comparisons:
         head += [f"Computed, {comparison.inflow}", f"Error [{measured.unit}], {comparison.inflow}"]
         for row, point in zip(rows, comparison.points, strict=True):
             computed = point.computed
-            row += [f"{computed[quantity]:.5g}", f"{point.error_percent:+.1f}"] if computed else ["no trim", ""]
+            row += (
+                [f"{computed[quantity]:.5g}", f"{point.error_percent:+.1f}"]
+                if computed
+                else ["no trim", ""]
+            )
     if not measured.indicative:
         head.append("Verdict")
         for row, point in zip(rows, comparisons[0].points, strict=True):
@@ -369,18 +430,24 @@ def _base(measured: MeasuredSet, inflow: str | None) -> Design:
 
 def design_at(measured: MeasuredSet, point: dict[str, float], base: Design | None = None) -> Design:
     """The test of one point, with the blade and models of `base`; else the rotor as built with those of `flight`."""
-    stand = {key: point[key] for key in ("shaft_tilt_deg", "ct_over_sigma", "tip_mach") if key in point}
+    stand = {
+        key: point[key] for key in ("shaft_tilt_deg", "ct_over_sigma", "tip_mach") if key in point
+    }
     if "collective_deg" in measured.given:
         stand["collective_deg"] = point["collective_deg"]
     if measured.trim != "free-rotor" and "shaft_tilt_deg" not in measured.given:
         stand.pop("shaft_tilt_deg", None)
     if "ct" in measured.given:
         stand["ct_over_sigma"] = point["ct"] / shipped_aircraft(measured.rotor).rotor.solidity
-    design = make_design(rotor=measured.rotor, mu=point.get("mu", 0.0), trim=measured.trim, stand=stand)
+    design = make_design(
+        rotor=measured.rotor, mu=point.get("mu", 0.0), trim=measured.trim, stand=stand
+    )
     if base is None:
         return design
     models = replace(base.models, trim=design.models.trim)
-    return replace(base, condition=replace(design.condition, mass=base.condition.mass), models=models)
+    return replace(
+        base, condition=replace(design.condition, mass=base.condition.mass), models=models
+    )
 
 
 def quantity_of(name: str, solution: Solution, measured: MeasuredSet, r: float = math.nan) -> float:
@@ -402,14 +469,20 @@ def quantity_of(name: str, solution: Solution, measured: MeasuredSet, r: float =
         case "change_percent":
             assert measured.against is not None
             other = make_design(rotor=measured.against)
-            plain = solve(replace(other, condition=design.condition, models=design.models)).require()
-            return 100.0 * ((solution.cq - at_zero(design).cq) / (plain.cq - at_zero(plain.design).cq) - 1.0)
+            plain = solve(
+                replace(other, condition=design.condition, models=design.models)
+            ).require()
+            return 100.0 * (
+                (solution.cq - at_zero(design).cq) / (plain.cq - at_zero(plain.design).cq) - 1.0
+            )
         case "collective_deg":
             return math.degrees(solution.controls.collective)
         case "shaft_tilt_deg":
             return math.degrees(solution.controls.shaft_tilt)
         case _:
-            raise ValueError(f"measured quantity {name!r} is not known: check assets/measured/{measured.name}.toml")
+            raise ValueError(
+                f"measured quantity {name!r} is not known: check assets/measured/{measured.name}.toml"
+            )
 
 
 def at_zero(design: Design) -> Solution:

@@ -76,17 +76,32 @@ def _of_sets() -> Iterator[PointAndBand]:
         if measured.quantity not in QUANTITIES:
             continue
         for point in measured.points:
-            solution, above_zero = solve(design := design_at(measured, point)), measured.quantity == "cq_above_zero"
-            if not solution.converged or (above_zero and solution.ct < LEAST_LIFT * design.rotor.solidity):
+            solution, above_zero = (
+                solve(design := design_at(measured, point)),
+                measured.quantity == "cq_above_zero",
+            )
+            if not solution.converged or (
+                above_zero and solution.ct < LEAST_LIFT * design.rotor.solidity
+            ):
                 continue
-            unit = design.power_unit * (design.rotor.solidity if measured.quantity == "cq_over_sigma" else 1.0)
-            power = point[measured.quantity] * unit + (at_zero(design).power.main_rotor if above_zero else 0.0)
-            yield _point(measured.rotor, HOVER if design.hovering else "forward flight", solution, power)
+            unit = design.power_unit * (
+                design.rotor.solidity if measured.quantity == "cq_over_sigma" else 1.0
+            )
+            power = point[measured.quantity] * unit + (
+                at_zero(design).power.main_rotor if above_zero else 0.0
+            )
+            yield _point(
+                measured.rotor, HOVER if design.hovering else "forward flight", solution, power
+            )
 
 
 def _flown() -> Iterator[PointAndBand]:
     for power in measured_powers():
-        solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
+        solution = solve(
+            make_design(
+                rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude
+            )
+        )
         if solution.converged:
             yield _point(power.rotor, "forward flight", solution, power.power)
 
@@ -98,7 +113,14 @@ def _point(rotor: str, kind: str, solution: Solution, measured: float) -> PointA
     rest = math.hypot(*(row.power for row in rows)) / known_power(solution)
     name = next(name for name in ROTORS if rotor.startswith(name))
     power = solution.power
-    return PointAndBand(name, kind, measured / computed - 1.0, power.induced / computed, power.profile / computed, rest)
+    return PointAndBand(
+        name,
+        kind,
+        measured / computed - 1.0,
+        power.induced / computed,
+        power.profile / computed,
+        rest,
+    )
 
 
 def fitted(points: Iterable[PointAndBand]) -> tuple[float, float]:
@@ -111,7 +133,12 @@ def fitted(points: Iterable[PointAndBand]) -> tuple[float, float]:
         """−ln of the likelihood, but for a constant."""
         sizes = tuple(np.exp(logs).tolist())
         each = (
-            np.mean([0.5 * (z := point.over_band(sizes)) ** 2 + math.log(abs(point.error / z)) for point in mine])
+            np.mean(
+                [
+                    0.5 * (z := point.over_band(sizes)) ** 2 + math.log(abs(point.error / z))
+                    for point in mine
+                ]
+            )
             for mine in by_rotor.values()
         )
         return float(sum(each))
@@ -160,18 +187,26 @@ def doubt_set() -> TrustSet:
         series.append(Points("", over, [len(rows)] * len(mine), 1))
         rows.append(words.row(name, shown, inside / len(mine), 0.1, note=words.notes.get(name, "")))
     along = Axis("(measured − computed)/band")
-    chart = Chart("Error over band", along, Axis(names=tuple(row.what for row in rows)), tuple(series))
+    chart = Chart(
+        "Error over band", along, Axis(names=tuple(row.what for row in rows)), tuple(series)
+    )
     left = left_out_sizes(points)
     means = {
         "Mean over rotors, hover": [(point, sizes) for point in points if point.kind == HOVER],
-        "Mean over rotors, forward flight": [(point, sizes) for point in points if point.kind != HOVER],
+        "Mean over rotors, forward flight": [
+            (point, sizes) for point in points if point.kind != HOVER
+        ],
         "Mean over rotors": [(point, sizes) for point in points],
         LEFT_OUT: [(point, left[point.rotor]) for point in points],
     }
     for name, mine in means.items():
         held = coverage(mine)
-        rows.append(words.row(name, f"{_percent(held)} in the bands of 50, 68 and 90 %", held[1], 0.05))
-    (low_i, low_0), (high_i, high_0) = (end(list(left.values()), axis=0) for end in (np.min, np.max))
+        rows.append(
+            words.row(name, f"{_percent(held)} in the bands of 50, 68 and 90 %", held[1], 0.05)
+        )
+    (low_i, low_0), (high_i, high_0) = (
+        end(list(left.values()), axis=0) for end in (np.min, np.max)
+    )
     text = words.text[0].format(
         induced=f"{100 * sizes[0]:g}", profile=f"{100 * sizes[1]:g}", rotors=len(left),
         others=f"{100 * low_i:.0f} to {100 * high_i:.0f} % and {100 * low_0:.0f} to {100 * high_0:.0f} %",

@@ -28,7 +28,12 @@ from rotor.validation.trust import TrustRow, TrustSet, description, rms
 POWERS = "flown-power"
 """Name of the set."""
 TITLES = {"gazelle": "SA349/2 Gazelle", "bo105": "Bo 105"}
-ANGLES = {"theta0": "collective", "theta1c": "cyclic 1c", "theta1s": "cyclic 1s", "theta0_tail": "tail rotor"}
+ANGLES = {
+    "theta0": "collective",
+    "theta1c": "cyclic 1c",
+    "theta1s": "cyclic 1s",
+    "theta0_tail": "tail rotor",
+}
 """Angles of the Bo 105: of the main rotor collective at its centre, and cyclic; of the tail rotor collective."""
 SHAPE_TARGET = 0.08
 """Target for the Gazelle: root mean square of the shape's error."""
@@ -76,7 +81,9 @@ class MeasuredPower:
 
     def same_flight(self, design: Design) -> bool:
         """Whether a design also flies at this advance ratio."""
-        return self.same_air(design) and math.isclose(design.condition.advance_ratio, self.mu, abs_tol=1e-9)
+        return self.same_air(design) and math.isclose(
+            design.condition.advance_ratio, self.mu, abs_tol=1e-9
+        )
 
     @property
     def title(self) -> str:
@@ -132,7 +139,11 @@ class FlownAngle:
 def flown_powers() -> Iterator[FlownPower]:
     """Every measured power beside the computed one."""
     for power in measured_powers():
-        solution = solve(make_design(rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude))
+        solution = solve(
+            make_design(
+                rotor=power.rotor, mu=power.mu, mass_kg=power.mass, altitude_m=power.altitude
+            )
+        )
         controls = solution.controls
         computed = (controls.collective, controls.cyclic_1c, controls.cyclic_1s)
         main = solution.power.main_rotor if solution.converged else None
@@ -152,7 +163,10 @@ def shape_errors(computed: Sequence[float], measured: Sequence[float]) -> tuple[
 
 def flown_angles() -> tuple[FlownAngle, ...]:
     """The four pitch angles of the Bo 105."""
-    solutions = [solve(make_design(rotor="bo105", speed_kt=speed, mass_kg=MASS_KG)).require() for speed in SPEEDS_KT]
+    solutions = [
+        solve(make_design(rotor="bo105", speed_kt=speed, mass_kg=MASS_KG)).require()
+        for speed in SPEEDS_KT
+    ]
     computed: Array = np.degrees(np.array([_angles(solution) for solution in solutions])).T
     rows = csv_rows(asset_path("measured/bo105_controls.csv"))
     angles: list[FlownAngle] = []
@@ -160,7 +174,11 @@ def flown_angles() -> tuple[FlownAngle, ...]:
         mine = [row for row in rows if row["quantity"] == name]
         speeds = tuple(float(row["speed_kt"]) for row in mine)
         there = np.asarray(np.interp(speeds, SPEEDS_KT, values), dtype=np.float64)
-        angles.append(FlownAngle(name, speeds, tuple(float(row["value_deg"]) for row in mine), tuple(there.tolist())))
+        angles.append(
+            FlownAngle(
+                name, speeds, tuple(float(row["value_deg"]) for row in mine), tuple(there.tolist())
+            )
+        )
     return tuple(angles)
 
 
@@ -181,9 +199,14 @@ def tail_pitch(solution: Solution) -> float:
     if tail is None:
         raise ValueError(f"{design.rotor.name} has no tail rotor: its pitch cannot be computed")
     tip_speed = tail.angular_speed * tail.radius
-    thrust = solution.power.main_rotor / design.rotor.angular_speed / (tail.arm * math.cos(tail.cant))
+    thrust = (
+        solution.power.main_rotor / design.rotor.angular_speed / (tail.arm * math.cos(tail.cant))
+    )
     ct = thrust / (design.condition.density * math.pi * tail.radius**2 * tip_speed**2)
-    solidity, mu = tail.blades * tail.chord / (math.pi * tail.radius), design.flight_speed / tip_speed
+    solidity, mu = (
+        tail.blades * tail.chord / (math.pi * tail.radius),
+        design.flight_speed / tip_speed,
+    )
     inflow = glauert_inflow(ct / tail.tip_loss**2, mu, 0.0)[0]
     return (2.0 * ct / (solidity * tail.lift_slope) + 0.5 * inflow) / (1.0 / 3.0 + 0.5 * mu**2)
 
@@ -191,7 +214,9 @@ def tail_pitch(solution: Solution) -> float:
 def flown_set() -> TrustSet:
     """The set of the trust page: powers and control angles measured in flight."""
     words, powers, angles = description(POWERS), list(flown_powers()), flown_angles()
-    gazelle, bo105 = (100.0 * shape_errors(*_trimmed(powers, rotor))[0] for rotor in ("gazelle", "bo105"))
+    gazelle, bo105 = (
+        100.0 * shape_errors(*_trimmed(powers, rotor))[0] for rotor in ("gazelle", "bo105")
+    )
     return words.page(
         f"shape: {TITLES['gazelle']} {gazelle:.1f} %; {TITLES['bo105']}, which has no target, {bo105:.1f} %",
         (*_power_rows(powers), *_gazelle_rows(powers), *map(_angle_row, angles)),
@@ -202,7 +227,11 @@ def flown_set() -> TrustSet:
 
 def _trimmed(powers: Sequence[FlownPower], rotor: str) -> tuple[list[float], list[float]]:
     """Computed and measured powers where the computation trims."""
-    mine = [(row.computed, row.measured) for row in powers if row.rotor == rotor and row.computed is not None]
+    mine = [
+        (row.computed, row.measured)
+        for row in powers
+        if row.rotor == rotor and row.computed is not None
+    ]
     return [computed for computed, _ in mine], [measured for _, measured in mine]
 
 
@@ -211,7 +240,9 @@ def _power_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
     for rotor, title in TITLES.items():
         shape, level = shape_errors(*_trimmed(powers, rotor))
         judged: dict[str, Any] = (
-            {"target": f"{100 * SHAPE_TARGET:g} %", "met": shape <= SHAPE_TARGET} if rotor == "gazelle" else {}
+            {"target": f"{100 * SHAPE_TARGET:g} %", "met": shape <= SHAPE_TARGET}
+            if rotor == "gazelle"
+            else {}
         )
         what, shown = f"{title}: power over speed, shape", f"rms {100 * shape:.1f} %"
         yield words.row(what, shown, shape, 5e-3, test=test, note=rotor, **judged)
@@ -220,10 +251,16 @@ def _power_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
 
 def _gazelle_rows(powers: Sequence[FlownPower]) -> Iterator[TrustRow]:
     words = description(POWERS)
-    errors = [np.subtract(row.angles, row.measured_angles) for row in powers if row.angles and row.measured_angles]
+    errors = [
+        np.subtract(row.angles, row.measured_angles)
+        for row in powers
+        if row.angles and row.measured_angles
+    ]
     for name, differences in zip(list(ANGLES.values())[:3], list(np.array(errors).T), strict=True):
         size, note = rms(differences), words.notes.get(name, "")
-        yield words.row(f"SA349/2 Gazelle: {name}, four flights", f"rms {size:.1f}°", size, 0.05, note=note)
+        yield words.row(
+            f"SA349/2 Gazelle: {name}, four flights", f"rms {size:.1f}°", size, 0.05, note=note
+        )
 
 
 def _angle_row(angle: FlownAngle) -> TrustRow:
@@ -235,35 +272,64 @@ def _angle_row(angle: FlownAngle) -> TrustRow:
 
 
 def _power_chart(powers: Sequence[FlownPower], rotor: str) -> Chart:
-    mine = sorted((row for row in powers if row.rotor == rotor and row.computed is not None), key=lambda row: row.mu)
+    mine = sorted(
+        (row for row in powers if row.rotor == rotor and row.computed is not None),
+        key=lambda row: row.mu,
+    )
     mu = [row.mu for row in mine]
     series = (
         Points("measured", mu, [row.measured / 1e3 for row in mine]),
         Line("computed", mu, [(row.computed or math.nan) / 1e3 for row in mine], 1, dots=True),
     )
-    return Chart(f"Power of the {TITLES[rotor]}", Axis("advance ratio µ"), Axis("main-rotor power [kW]"), series)
+    return Chart(
+        f"Power of the {TITLES[rotor]}",
+        Axis("advance ratio µ"),
+        Axis("main-rotor power [kW]"),
+        series,
+    )
 
 
 def _angle_chart(angles: Sequence[FlownAngle]) -> Chart:
     series: list[Series] = []
     for k, angle in enumerate(angles, start=1):
-        series.append(Points(f"{ANGLES[angle.quantity]}, measured", angle.speed_kt, angle.measured, k))
+        series.append(
+            Points(f"{ANGLES[angle.quantity]}, measured", angle.speed_kt, angle.measured, k)
+        )
         series.append(Line("computed", angle.speed_kt, angle.computed, k))
-    return Chart("Pitch angles of the Bo 105", Axis("airspeed [kt]"), Axis("pitch [°]"), tuple(series))
+    return Chart(
+        "Pitch angles of the Bo 105", Axis("airspeed [kt]"), Axis("pitch [°]"), tuple(series)
+    )
 
 
-def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple[tuple[str, ...], ...]:
+def _points(
+    powers: Sequence[FlownPower], angles: Sequence[FlownAngle]
+) -> tuple[tuple[str, ...], ...]:
     rows = [("Helicopter", "Quantity", "At", "Measured", "Computed", "Error")]
     for row in powers:
         computed = "no trim" if row.computed is None else f"{row.computed / 1e3:.1f}"
-        rows.append((TITLES[row.rotor], "power [kW]", row.case, f"{row.measured / 1e3:.1f}", computed, ""))
+        rows.append(
+            (TITLES[row.rotor], "power [kW]", row.case, f"{row.measured / 1e3:.1f}", computed, "")
+        )
     for row in powers:
         if row.measured_angles and row.angles:
-            for name, theirs, computed in zip(ANGLES.values(), row.measured_angles, row.angles, strict=False):
+            for name, theirs, computed in zip(
+                ANGLES.values(), row.measured_angles, row.angles, strict=False
+            ):
                 error = f"{computed - theirs:+.1f}"
-                rows.append((TITLES[row.rotor], f"{name} [°]", row.case, f"{theirs:.1f}", f"{computed:.1f}", error))
+                rows.append(
+                    (
+                        TITLES[row.rotor],
+                        f"{name} [°]",
+                        row.case,
+                        f"{theirs:.1f}",
+                        f"{computed:.1f}",
+                        error,
+                    )
+                )
     for angle in angles:
-        for speed, theirs, computed in zip(angle.speed_kt, angle.measured, angle.computed, strict=True):
+        for speed, theirs, computed in zip(
+            angle.speed_kt, angle.measured, angle.computed, strict=True
+        ):
             what = f"{ANGLES[angle.quantity]} [°]"
             at, error = f"{speed:.1f} kt", f"{computed - theirs:+.1f}"
             rows.append(("Bo 105", what, at, f"{theirs:.1f}", f"{computed:.1f}", error))
@@ -272,7 +338,11 @@ def _points(powers: Sequence[FlownPower], angles: Sequence[FlownAngle]) -> tuple
 
 def gazelle_set() -> TrustSet:
     """The set of the trust page: section lift of the Gazelle, as c_l and times the dynamic pressure."""
-    solutions = {case.name: solve(case.design()).require() for case in airloads.CASES if case.test == AIRLOADS}
+    solutions = {
+        case.name: solve(case.design()).require()
+        for case in airloads.CASES
+        if case.test == AIRLOADS
+    }
     curves = [curve for curve in airloads.measured_curves() if curve.case.test == AIRLOADS]
     agreements = [airloads.agreement(curve, solutions[curve.case.name]) for curve in curves]
     lift = [beside.correlation for beside in agreements if beside.quantity == "cl"]
@@ -302,8 +372,14 @@ def _lift_chart(solution: Solution, curves: Sequence[airloads.MeasuredCurve]) ->
     """c_l at the radii."""
     series: list[Series] = []
     for k, measured in enumerate(curves, start=1):
-        series.append(Points(f"measured, {measured.r:g} R", np.degrees(measured.psi), measured.values, k))
-        series.append(Line("computed", *airloads.closed_around(*airloads.computed_curve(measured, solution)), k))
+        series.append(
+            Points(f"measured, {measured.r:g} R", np.degrees(measured.psi), measured.values, k)
+        )
+        series.append(
+            Line(
+                "computed", *airloads.closed_around(*airloads.computed_curve(measured, solution)), k
+            )
+        )
     case = curves[0].case
     title = f"Section lift coefficient, {case.name}, µ {case.conditions['mu']:g}"
     return airloads.azimuth_chart(title, f"c_l, {case.name}", series)
@@ -311,9 +387,26 @@ def _lift_chart(solution: Solution, curves: Sequence[airloads.MeasuredCurve]) ->
 
 def _lift_points(agreements: Sequence[airloads.CurveAgreement]) -> tuple[tuple[str, ...], ...]:
     rows: list[tuple[str, ...]] = [
-        ("Flight", "r/R", "Quantity", "Correlation", "rms error", "Measured rms", "Mean", "Measured mean")
+        (
+            "Flight",
+            "r/R",
+            "Quantity",
+            "Correlation",
+            "rms error",
+            "Measured rms",
+            "Mean",
+            "Measured mean",
+        )
     ]
     for curve in agreements:
-        numbers = (curve.correlation, curve.rms, curve.measured_rms, curve.mean, curve.measured_mean)
-        rows.append((curve.case.name, f"{curve.r:g}", _LIFT[curve.quantity], *(f"{x:.3f}" for x in numbers)))
+        numbers = (
+            curve.correlation,
+            curve.rms,
+            curve.measured_rms,
+            curve.mean,
+            curve.measured_mean,
+        )
+        rows.append(
+            (curve.case.name, f"{curve.r:g}", _LIFT[curve.quantity], *(f"{x:.3f}" for x in numbers))
+        )
     return tuple(rows)

@@ -36,7 +36,9 @@ QUANTITIES = {
 
 def measured_vortices(case: str) -> tuple[Array, Array, Array]:
     """Centres of tip vortices of `BL` or `MN` over R: x aft, y to starboard, z up from the hub; (points,) each."""
-    rows = [row for row in csv_rows(asset_path("measured/hart2_vortices.csv")) if row["case"] == case]
+    rows = [
+        row for row in csv_rows(asset_path("measured/hart2_vortices.csv")) if row["case"] == case
+    ]
     x, y, z = airloads.columns(rows, *"xyz")
     return x, y, z
 
@@ -50,7 +52,9 @@ def height(course: WakeCourse, x: Array, y: Array) -> Array:
     for k, (aft, side) in enumerate(zip(x.tolist(), y.tolist(), strict=True)):
         released = math.pi - math.asin(side)
         age = (aft - math.cos(released)) / course.mu_x
-        heights[k] = course.nodes(np.array([released + age]), np.array([age]), np.ones(1))[0, 0, 0, 2]
+        heights[k] = course.nodes(np.array([released + age]), np.array([age]), np.ones(1))[
+            0, 0, 0, 2
+        ]
     return heights
 
 
@@ -62,17 +66,25 @@ def cases() -> tuple[airloads.FlownCase, airloads.FlownCase]:
 
 def curves() -> dict[tuple[str, str], airloads.MeasuredCurve]:
     """The measured curves by case and quantity."""
-    return {(curve.case.name, curve.quantity): curve for curve in airloads.measured_curves() if curve.case.test == SET}
+    return {
+        (curve.case.name, curve.quantity): curve
+        for curve in airloads.measured_curves()
+        if curve.case.test == SET
+    }
 
 
 def hart2_set() -> TrustSet:
     """The set of the trust page: airloads, twist and flapping of HART II."""
     solutions = {case.name: solve(case.design()).require() for case in cases()}
-    agreements = {key: airloads.agreement(curve, solutions[key[0]]) for key, curve in curves().items()}
+    agreements = {
+        key: airloads.agreement(curve, solutions[key[0]]) for key, curve in curves().items()
+    }
     normal = [agreements[name, "cn_m2"].correlation for name in solutions]
     words = f"C_n M² correlation {normal[0]:.2f}, {normal[1]:.2f}"
     charts = (*_charts(solutions), _vortex_chart(solutions["BL"]))
-    return description(SET).page(words, _rows(agreements, solutions), charts, points=_points(agreements))
+    return description(SET).page(
+        words, _rows(agreements, solutions), charts, points=_points(agreements)
+    )
 
 
 _Agreements = Mapping[tuple[str, str], airloads.CurveAgreement]
@@ -102,7 +114,13 @@ def _rows(agreements: _Agreements, solutions: Mapping[str, Solution]) -> Iterato
                     0.03, note="" if met else motion, target=f"{100 * LARGEST_MISS:g} %", met=met,
                 )  # fmt: skip
             error = curve.mean - curve.measured_mean
-            yield row(f"{name}: tip {motion}, mean", f"{error:+{digits}}{unit}", error, allowed, note=f"mean {motion}")
+            yield row(
+                f"{name}: tip {motion}, mean",
+                f"{error:+{digits}}{unit}",
+                error,
+                allowed,
+                note=f"mean {motion}",
+            )
     for name, solution in solutions.items():
         size, mean, points = vortex_errors(solution, name)
         what = f"{name}: height of tip vortices, {points} points"
@@ -129,14 +147,22 @@ def _charts(solutions: Mapping[str, Solution]) -> Iterator[Chart]:
             label = f"{QUANTITIES[quantity]}, {name}, without mean"
             points = Points("measured", np.degrees(measured.psi[::2]), theirs[::2])
             yield airloads.azimuth_chart(
-                label, label, (points, Line("computed", *airloads.closed_around(psi, values - values.mean()), 1))
+                label,
+                label,
+                (points, Line("computed", *airloads.closed_around(psi, values - values.mean()), 1)),
             )
     for quantity in ("tip_twist_deg", "tip_flap"):
         series: list[Series] = []
         for k, (name, solution) in enumerate(solutions.items(), start=1):
             measured = beside[name, quantity]
             series.append(Points(f"{name}, measured", np.degrees(measured.psi), measured.values, k))
-            series.append(Line("computed", *airloads.closed_around(*airloads.computed_curve(measured, solution)), k))
+            series.append(
+                Line(
+                    "computed",
+                    *airloads.closed_around(*airloads.computed_curve(measured, solution)),
+                    k,
+                )
+            )
         yield airloads.azimuth_chart(QUANTITIES[quantity], QUANTITIES[quantity], series)
 
 
@@ -153,12 +179,26 @@ def _vortex_chart(solution: Solution) -> Chart:
         along = np.linspace(-math.sqrt(1.0 - plane**2), float(x[here].max()), 30)
         computed = height(course, along, np.full_like(along, plane))
         series.append(Line("computed", along, computed, k))
-    return Chart("Tip vortices above the hub, BL", Axis("x/R, aft"), Axis("z/R of tip vortices, BL"), tuple(series))
+    return Chart(
+        "Tip vortices above the hub, BL",
+        Axis("x/R, aft"),
+        Axis("z/R of tip vortices, BL"),
+        tuple(series),
+    )
 
 
 def _points(agreements: _Agreements) -> tuple[tuple[str, ...], ...]:
     rows: list[tuple[str, ...]] = [
-        ("Case", "Quantity", "n", "Measured", "Measured φ [°]", "Computed", "Computed φ [°]", "Miss [%]")
+        (
+            "Case",
+            "Quantity",
+            "n",
+            "Measured",
+            "Measured φ [°]",
+            "Computed",
+            "Computed φ [°]",
+            "Miss [%]",
+        )
     ]
     for (name, quantity), beside in agreements.items():
         form = ".2f" if quantity == "tip_twist_deg" else ".5f"

@@ -104,7 +104,9 @@ def _chart(measured: MeasuredInflow) -> Chart:
     here = [k for k, r in enumerate(measured.r) if r == CHART_R]
     psi = np.linspace(0.0, 2.0 * math.pi, 73)
     ring = MeasuredInflow(measured.mu, np.full_like(psi, CHART_R), psi, np.zeros_like(psi))
-    series: list[Series] = [Points("measured", np.degrees(measured.psi)[here], measured.inflow[here])]
+    series: list[Series] = [
+        Points("measured", np.degrees(measured.psi)[here], measured.inflow[here])
+    ]
     for k, name in enumerate(usual_inflows(), start=1):
         series.append(Line(name, np.degrees(psi), _time_mean(name, ring), k))
     title = f"Inflow at r/R {CHART_R:g}, µ {measured.mu:g}"
@@ -119,7 +121,9 @@ def inflow_agreement() -> Iterator[InflowAgreement]:
             yield InflowAgreement(
                 mu=measured.mu,
                 model=name,
-                correlation=float(np.corrcoef(computed, measured.inflow)[0, 1]) if np.ptp(computed) > 1e-9 else None,
+                correlation=float(np.corrcoef(computed, measured.inflow)[0, 1])
+                if np.ptp(computed) > 1e-9
+                else None,
                 rms=rms(computed - measured.inflow),
                 mean=float(computed.mean()),
                 measured_mean=float(measured.inflow.mean()),
@@ -148,7 +152,9 @@ def above_disk(solution: Solution, measured: MeasuredInflow, height: float) -> A
     height: over R. The disk of the test is normal to the shaft: the rotor is trimmed without flapping.
     """
     above = np.full_like(measured.r, solution.controls.coning + height)
-    points = np.stack([measured.r * np.cos(measured.psi), measured.r * np.sin(measured.psi), above], axis=1)
+    points = np.stack(
+        [measured.r * np.cos(measured.psi), measured.r * np.sin(measured.psi), above], axis=1
+    )
     return trim_problem(solution.design).inflow_terms.off_disk(points, solution.start.inflow)
 
 

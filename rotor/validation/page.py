@@ -49,7 +49,9 @@ LONGEST = 64
 """Letters of a cell that fit into two lines; a test holds it, so that a long run is not lost for a word."""
 FOLDER = "validation"
 """Folder of the sets' pages, beside the summary."""
-_HEADING = "# Made by: make trust. Read by rotor/validation/trust.py; docs/validation.md shows it.\n"
+_HEADING = (
+    "# Made by: make trust. Read by rotor/validation/trust.py; docs/validation.md shows it.\n"
+)
 _AGAINST = {
     "validation": "measurement",
     "indicative": "indicative",
@@ -111,7 +113,10 @@ def write_set(data: TrustSet, folder: Path) -> Path:
         write_whole(folder / _picture(data, k), svg(chart))
     write_whole(folder / f"{data.name}-small.svg", small_svg(data.charts[0]))
     for file, _, rows in _tables(data):
-        write_whole(folder / file, csv_text(rows, f"# {data.title}. {_source(data)}\n# Made by: make trust\n"))
+        write_whole(
+            folder / file,
+            csv_text(rows, f"# {data.title}. {_source(data)}\n# Made by: make trust\n"),
+        )
     path = folder / f"{data.name}.md"
     write_whole(path, set_page(data))
     return path
@@ -150,14 +155,18 @@ def set_page(data: TrustSet) -> str:
     labels = [row.what.removeprefix(f"{data.title}: ") for row in data.rows]
     judged = kind == "document" or any(row.target for row in data.rows)
     remarks = [row.note for row in data.rows]
-    short = all(0 < len(note) <= LONGEST for note in remarks) and 1 < len({*remarks}) == len(remarks)
+    short = all(0 < len(note) <= LONGEST for note in remarks) and 1 < len({*remarks}) == len(
+        remarks
+    )
     in_table = short and data.verdict != "missed"
     columns = {
         "": labels,
         "Against": [row.against for row in data.rows],
         "Error": [row.shown for row in data.rows],
         "Target": [row.target for row in data.rows],
-        "Verdict": ["" if row.verdict == "no target" else _verdict(row.verdict) for row in data.rows],
+        "Verdict": [
+            "" if row.verdict == "no target" else _verdict(row.verdict) for row in data.rows
+        ],
         "Remark": remarks,
     }
     if len({*columns["Against"]}) == 1:
@@ -172,11 +181,23 @@ def set_page(data: TrustSet) -> str:
         notes.pop("", None)
     words = [_table(tuple(columns), zip(*columns.values(), strict=True)), *data.text]
     if kind == "document":  # Whole sentences, for which a table has no room.
-        words = [*data.text, *(f"**{row.what}: {row.shown}.** {row.against} *Here:* {row.note}" for row in data.rows)]
+        words = [
+            *data.text,
+            *(
+                f"**{row.what}: {row.shown}.** {row.against} *Here:* {row.note}"
+                for row in data.rows
+            ),
+        ]
     elif notes:
         words.append("## Why it is missed" if data.verdict == "missed" else "## Remarks")
-        heads = ("; ".join(of) if len(of) < 3 else f"{of[0]} and {len(of) - 1} more" for of in notes.values())
-        words += [note if len(notes) == 1 else f"- {head}: {note}" for head, note in zip(heads, notes, strict=True)]
+        heads = (
+            "; ".join(of) if len(of) < 3 else f"{of[0]} and {len(of) - 1} more"
+            for of in notes.values()
+        )
+        words += [
+            note if len(notes) == 1 else f"- {head}: {note}"
+            for head, note in zip(heads, notes, strict=True)
+        ]
     return _page(
         f"# {data.title}",
         f"{_AGAINST[kind].capitalize()}: {data.compared}. {_source(data)}{'' if judged else ' No target is set.'}",
@@ -218,14 +239,23 @@ def _source(data: TrustSet) -> str:
 def _page(*parts: str) -> str:
     """Markdown with minus signs, powers of ten, and the indices of C_T and the like set low."""
     text = re.sub(r"(?<![\w.\-/`])-(?=\d)", "−", "\n\n".join(parts))
-    text = re.sub(r"\b(\d\.\d)e-0*(\d+)\b", lambda number: f"{number[1]} · 10⁻{number[2].translate(_RAISED)}", text)
-    text = re.sub(r"\b1e-0*(\d+)\b", lambda number: "10⁻" + number[1].translate(_RAISED), text).replace(" %", "\u00a0%")
-    return re.sub(r"\b([CUc])_(\w)\b", lambda index: index[1] + str(tag("sub", index[2])), text) + "\n"
+    text = re.sub(
+        r"\b(\d\.\d)e-0*(\d+)\b",
+        lambda number: f"{number[1]} · 10⁻{number[2].translate(_RAISED)}",
+        text,
+    )
+    text = re.sub(
+        r"\b1e-0*(\d+)\b", lambda number: "10⁻" + number[1].translate(_RAISED), text
+    ).replace(" %", "\u00a0%")
+    return (
+        re.sub(r"\b([CUc])_(\w)\b", lambda index: index[1] + str(tag("sub", index[2])), text) + "\n"
+    )
 
 
 def _table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     head, *cells = (
-        f"| {' | '.join(line)} |" for line in (heads, *([cell.replace("|", "\\|") for cell in row] for row in rows))
+        f"| {' | '.join(line)} |"
+        for line in (heads, *([cell.replace("|", "\\|") for cell in row] for row in rows))
     )
     return "\n".join((head, f"|{'---|' * len(heads)}", *cells))
 

@@ -56,24 +56,38 @@ class StallLoop:
 
 def glasgow_section() -> SectionTable:
     """The static data of the model, symmetric."""
-    rows = [row for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv")) if row["run"] == "static"]
+    rows = [
+        row
+        for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv"))
+        if row["run"] == "static"
+    ]
     upper = np.concatenate([np.stack(columns(rows, "alpha_deg", "cl", "cd", "cm"), axis=1), _ENDS])
     whole = np.concatenate([upper[:0:-1] * [-1.0, -1.0, 1.0, -1.0], upper])
     mach = np.array([0.0, 1.0])
-    blocks = (C81Block(mach, whole[:, 0], np.repeat(whole[:, k : k + 1], 2, axis=1)) for k in (1, 2, 3))
-    return table_from_deck("glasgow-5", "University of Glasgow, model 5", C81Deck("glasgow-5", *blocks))
+    blocks = (
+        C81Block(mach, whole[:, 0], np.repeat(whole[:, k : k + 1], 2, axis=1)) for k in (1, 2, 3)
+    )
+    return table_from_deck(
+        "glasgow-5", "University of Glasgow, model 5", C81Deck("glasgow-5", *blocks)
+    )
 
 
 def stall_loop(run: str) -> StallLoop:
     """A run beside the computed one."""
-    rows = [row for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv")) if row["run"] == run]
+    rows = [
+        row
+        for row in csv_rows(asset_path("measured/glasgow_dynamic_stall.csv"))
+        if row["run"] == run
+    ]
     alpha, cl, cd, cm = columns(rows, "alpha_deg", "cl", "cd", "cm")
     mean, amplitude, k = (float(rows[0][name]) for name in ("mean_deg", "amplitude_deg", "k"))
     rises = np.append(np.diff(alpha) > 0.0, True)
     share = np.arcsin(np.clip((alpha - mean) / amplitude, -1.0, 1.0))
     phase = np.where(rises, share, math.pi - share) % (2.0 * math.pi)
     alpha = np.radians(alpha)
-    static, dynamic = pitching(glasgow_section(), MACH, math.radians(mean), math.radians(amplitude), k)
+    static, dynamic = pitching(
+        glasgow_section(), MACH, math.radians(mean), math.radians(amplitude), k
+    )
     ends = np.linspace(0.0, 2.0 * math.pi, _AZIMUTHS + 1)
 
     def at_points(around: Array) -> Array:
@@ -83,7 +97,9 @@ def stall_loop(run: str) -> StallLoop:
     return StallLoop(run, alpha, measured, at_points(static), at_points(dynamic))
 
 
-def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k: float) -> tuple[Array, Array]:
+def pitching(
+    table: SectionTable, mach: float, mean: float, amplitude: float, k: float
+) -> tuple[Array, Array]:
     """Static C_n and C_m at α = mean + amplitude sin ωt about the quarter chord, and those in unsteady flow, (2, 192).
 
     Angles in radians; k = ωb/U. The aerofoil sheds its wake into even air: the flow at three quarters of its chord is
@@ -97,14 +113,22 @@ def pitching(table: SectionTable, mach: float, mean: float, amplitude: float, k:
     seen = mean + amplitude * np.imag(lag * (1.0 + 1j * k) * np.exp(1j * phase))
     onset = stall_onset(table)
     section, weight, half_chord = np.zeros((1, 2), np.int64), np.zeros(1), np.full(1, k)
-    own = {"numbers": onset.numbers[None].copy(), "tables": onset.tables[None].copy(), "half_chord": half_chord}
+    own = {
+        "numbers": onset.numbers[None].copy(),
+        "tables": onset.tables[None].copy(),
+        "half_chord": half_chord,
+    }
     data = StallData(**own, section=section, weight=weight, tip_mach=mach)
     added, shown = np.empty((3, _AZIMUTHS)), np.empty((4, _AZIMUTHS))
     x = seen - float(table.zero_lift_alpha(mach))
-    stall_states(0, x, np.full(_AZIMUTHS, mach), data, False, added, empty_lags(0, _AZIMUTHS), shown)
+    stall_states(
+        0, x, np.full(_AZIMUTHS, mach), data, False, added, empty_lags(0, _AZIMUTHS), shown
+    )
     mass = math.pi * (q + 0.5 * turning)
     moment = -0.25 * (mass + math.pi * q + 0.25 * math.pi * turning)
-    dynamic = _static(table, seen, mach) + np.stack([added[ADDED_N] + mass, added[ADDED_M] + moment])
+    dynamic = _static(table, seen, mach) + np.stack(
+        [added[ADDED_N] + mass, added[ADDED_M] + moment]
+    )
     return _static(table, alpha, mach), dynamic
 
 
@@ -130,7 +154,10 @@ def loops_set() -> TrustSet:
         ]
         for k, name in enumerate(NAMES)
     }  # fmt: skip
-    error = "; ".join(f"{name} rms {', '.join(f'{row.error:.2f}' for row in rows)}" for name, rows in rows_of.items())
+    error = "; ".join(
+        f"{name} rms {', '.join(f'{row.error:.2f}' for row in rows)}"
+        for name, rows in rows_of.items()
+    )
     charts = (_chart(loop, k) for loop in loops for k in range(len(NAMES)))
     return words.page(error, (row for rows in rows_of.values() for row in rows), charts)
 
@@ -144,4 +171,6 @@ def _chart(loop: StallLoop, k: int) -> Chart:
         Line("dynamic stall", alpha, dynamic, 1),
         Line("static data", alpha, static, 2),
     )
-    return Chart(f"{NAMES[k]}, pitching {loop.motion}", Axis("angle of attack [°]"), Axis(NAMES[k]), series)
+    return Chart(
+        f"{NAMES[k]}, pitching {loop.motion}", Axis("angle of attack [°]"), Axis(NAMES[k]), series
+    )

@@ -151,7 +151,9 @@ class SetDescription:
         """A row whose error is rounding or discretisation: its size matters, not its digits."""
         met, target = abs(error) <= below, f"below {below:.0e}"
         shown = target if met else f"{abs(error):.1e}"
-        return self.row(what, shown, abs(error), below, test=test, target=target, met=met, against=against)
+        return self.row(
+            what, shown, abs(error), below, test=test, target=target, met=met, against=against
+        )
 
     def page(
         self, error: str, rows: Iterable[TrustRow], charts: Iterable[Chart], *, compared: str = "",
@@ -186,7 +188,9 @@ def trust_rows() -> tuple[TrustRow, ...]:
     for cells in csv_rows(asset_path("trust.csv")):
         for name, known in (("kind", KINDS), ("verdict", VERDICTS)):
             if cells[name] not in known:
-                raise ValueError(f"trust.csv has a row of {name} {cells[name]!r}: use one of {', '.join(known)}")
+                raise ValueError(
+                    f"trust.csv has a row of {name} {cells[name]!r}: use one of {', '.join(known)}"
+                )
         row: dict[str, Any] = {**cells, "allowed": float(cells["allowed"])}
         row["error"] = float(cells["error"]) if cells["error"] else None
         rows.append(TrustRow(**row))

@@ -67,7 +67,8 @@ def model_curve_comparison(preset: str) -> tuple[list[float], list[float], list[
     tip_speed = make_design().rotor.tip_speed
     speeds = [knots * KNOT / tip_speed for knots in curve["speed_kt"]]
     designs = (
-        make_design(preset=preset, mu=mu, mass_kg=curve["mass_kg"], altitude_m=curve["altitude_m"]) for mu in speeds
+        make_design(preset=preset, mu=mu, mass_kg=curve["mass_kg"], altitude_m=curve["altitude_m"])
+        for mu in speeds
     )
     computed = [solve(design).require().power.main_rotor / 1e3 for design in designs]
     return speeds, [HORSEPOWER_KW * power for power in curve["main_rotor_hp"]], computed
@@ -88,7 +89,10 @@ def hover_set() -> TrustSet:
         words.share("Hover C_P, worst of ten points", float(ratio.min()), 3e-3),
         words.share("Hover C_P, best of ten points", float(ratio.max()), 3e-3, note="best"),
     )
-    series = Points("measured, digitised", ct, cp), Line("computed, inflow annulus", ct, computed, 1, dots=True)
+    series = (
+        Points("measured, digitised", ct, cp),
+        Line("computed, inflow annulus", ct, computed, 1, dots=True),
+    )
     points = zip(ct, cp, computed, ratio, strict=True)
     return words.page(
         f"{100 * ratio.min():+.1f} to {100 * ratio.max():+.1f} %",
@@ -101,13 +105,21 @@ def hover_set() -> TrustSet:
 
 def forward_set() -> TrustSet:
     """Power over speed beside another model's."""
-    words, (speeds, theirs, computed) = description("uh60a-forward"), model_curve_comparison("flight")
+    words, (speeds, theirs, computed) = (
+        description("uh60a-forward"),
+        model_curve_comparison("flight"),
+    )
     size, mean = model_curve_errors()
     rows = (
-        words.share("Main-rotor power in forward flight, rms over seven speeds", size, 3e-3, note="rms"),
+        words.share(
+            "Main-rotor power in forward flight, rms over seven speeds", size, 3e-3, note="rms"
+        ),
         words.share("Main-rotor power in forward flight, mean of seven speeds", mean, 3e-3),
     )
-    series = Points("public model curve", speeds, theirs), Line("computed", speeds, computed, 1, dots=True)
+    series = (
+        Points("public model curve", speeds, theirs),
+        Line("computed", speeds, computed, 1, dots=True),
+    )
     return words.page(
         f"rms {100 * size:.1f} %, mean {100 * mean:+.1f} %",
         rows,
@@ -123,7 +135,14 @@ def section_set() -> TrustSet:
     words, rms = description("sc1095"), agreement("sc1095")
     divergence = "Drag-divergence Mach number at 0, 2, 4°, largest difference"
     rows = [
-        words.row(f"SC1095: {what}", f"{value:.{digits}f}", value, allowed, target=f"{most:g}", met=value <= most)
+        words.row(
+            f"SC1095: {what}",
+            f"{value:.{digits}f}",
+            value,
+            allowed,
+            target=f"{most:g}",
+            met=value <= most,
+        )
         for what, value, digits, allowed, most in (
             ("C_l rms to Mach 0.7", rms.cl_rms, 3, 0.002, 0.06),
             ("Largest C_m difference to Mach 0.7", rms.cm_largest, 4, 0.0005, 0.01),
@@ -138,24 +157,41 @@ def section_set() -> TrustSet:
 
 def _over_angle(name: str, label: str) -> Chart:
     mach = 0.4
-    table, aside = load_section("sc1095"), [p for p in public_points("sc1095") if p.kept_aside and p.mach == mach]
+    table, aside = (
+        load_section("sc1095"),
+        [p for p in public_points("sc1095") if p.kept_aside and p.mach == mach],
+    )
     alpha = np.arange(-5.0, 9.1, 0.25)
     computed = getattr(table(np.radians(alpha), mach), name)
     series = (
-        Points("RANS, held out", [math.degrees(p.alpha) for p in aside], [getattr(p, name) for p in aside]),
+        Points(
+            "RANS, held out",
+            [math.degrees(p.alpha) for p in aside],
+            [getattr(p, name) for p in aside],
+        ),
         Line("section table", alpha, computed, 1),
     )
     return Chart(
-        f"{label} of SC1095 at Mach {mach:g}", Axis("angle of attack [°]"), Axis(f"{label}, Mach {mach:g}"), series
+        f"{label} of SC1095 at Mach {mach:g}",
+        Axis("angle of attack [°]"),
+        Axis(f"{label}, Mach {mach:g}"),
+        series,
     )
 
 
 def _drag_rise() -> Chart:
     table, alpha = load_section("sc1095"), math.radians(2.0)
-    aside = sorted((p.mach, p.cd) for p in public_points("sc1095") if p.kept_aside and abs(p.alpha - alpha) < 1e-6)
+    aside = sorted(
+        (p.mach, p.cd)
+        for p in public_points("sc1095")
+        if p.kept_aside and abs(p.alpha - alpha) < 1e-6
+    )
     mach, drag = zip(*aside, strict=True)
     fine = np.arange(mach[0], mach[-1], 0.01)
-    series = (Points("RANS and network, held out", mach, drag), Line("section table", fine, table(alpha, fine).cd, 1))
+    series = (
+        Points("RANS and network, held out", mach, drag),
+        Line("section table", fine, table(alpha, fine).cd, 1),
+    )
     return Chart("Drag rise of SC1095 at 2°", Axis("Mach number"), Axis("C_d at 2°"), series)
 
 
@@ -183,7 +219,10 @@ def constants_set() -> TrustSet:
     errors = [100.0 * (row.error or 0.0) for row in rows]
     names = ("lift slope, SC1095", "lift slope, SC1094 R8", "flap frequency", "Lock number")
     chart = Chart(
-        "Computed over published", Axis("difference [%]"), Axis(names=names), (Points("", errors, range(4), 1),)
+        "Computed over published",
+        Axis("difference [%]"),
+        Axis(names=names),
+        (Points("", errors, range(4), 1),),
     )
     return words.page(f"{min(errors):+.1f} to {max(errors):+.1f} %", rows, (chart,))
 
@@ -206,7 +245,8 @@ class PitchLinkLoad:
     def half_peaks(self) -> tuple[float, float, float]:
         """Half peak to peak [N]: measured, computed, computed without bending."""
         measured, computed, rigid = (
-            0.5 * float(np.ptp(of)) for of in (self.measured.values, self.computed, self.torsion_alone)
+            0.5 * float(np.ptp(of))
+            for of in (self.measured.values, self.computed, self.torsion_alone)
         )
         return measured, computed, rigid
 
@@ -228,7 +268,9 @@ def pitch_link_loads() -> Iterator[PitchLinkLoad]:
 def pitch_link_set() -> TrustSet:
     """The set of the trust page: pitch-link loads of the UH-60A."""
     loads = list(pitch_link_loads())
-    errors = [computed / measured - 1.0 for measured, computed, _ in (load.half_peaks for load in loads)]
+    errors = [
+        computed / measured - 1.0 for measured, computed, _ in (load.half_peaks for load in loads)
+    ]
     return description(airloads.PITCH_LINK).page(
         f"half peak to peak {100 * min(errors):+.0f} to {100 * max(errors):+.0f} %",
         _load_rows(loads),
@@ -241,7 +283,9 @@ def _load_rows(loads: Sequence[PitchLinkLoad]) -> Iterator[TrustRow]:
     words = description(airloads.PITCH_LINK)
     for load in loads:
         measured, computed, _ = load.half_peaks
-        yield words.share(f"Half peak to peak, µ {load.mu:g}", computed / measured - 1.0, 0.02, digits=0)
+        yield words.share(
+            f"Half peak to peak, µ {load.mu:g}", computed / measured - 1.0, 0.02, digits=0
+        )
     for n in (1, 2):
         late = [load.agreement.late_deg(n) for load in loads]
         mean = float(np.mean([load.agreement.ratio(n) for load in loads]))
@@ -266,11 +310,17 @@ def _amplitude_chart(loads: Sequence[PitchLinkLoad]) -> Chart:
     series: list[Series] = []
     for n in LOAD_HARMONICS:
         measured, computed = (
-            [1e-3 * load.agreement.amplitude(n, measured=of) for load in loads] for of in (True, False)
+            [1e-3 * load.agreement.amplitude(n, measured=of) for load in loads]
+            for of in (True, False)
         )
         series.append(Points(f"{n}/rev, measured", mu, measured, n))
         series.append(Line("computed", mu, computed, n))
-    return Chart("Harmonics of the pitch-link load", Axis("advance ratio µ"), Axis("amplitude [kN]"), tuple(series))
+    return Chart(
+        "Harmonics of the pitch-link load",
+        Axis("advance ratio µ"),
+        Axis("amplitude [kN]"),
+        tuple(series),
+    )
 
 
 def _load_chart(load: PitchLinkLoad) -> Chart:
@@ -278,21 +328,39 @@ def _load_chart(load: PitchLinkLoad) -> Chart:
     series = (
         Points("measured", np.degrees(load.measured.psi), 1e-3 * load.measured.values),
         Line("computed", *airloads.closed_around(load.psi, 1e-3 * load.computed), 1),
-        Line("without bending", *airloads.closed_around(load.psi, 1e-3 * load.torsion_alone), 2, dashes=True),
+        Line(
+            "without bending",
+            *airloads.closed_around(load.psi, 1e-3 * load.torsion_alone),
+            2,
+            dashes=True,
+        ),
     )
     return airloads.azimuth_chart(title, f"{title} [kN]", series)
 
 
 def _load_points(loads: Sequence[PitchLinkLoad]) -> tuple[tuple[str, ...], ...]:
     rows: list[tuple[str, ...]] = [
-        ("µ", "Quantity", "Measured [kN]", "Measured φ [°]", "Computed [kN]", "Computed φ [°]", "Without bending [kN]")
+        (
+            "µ",
+            "Quantity",
+            "Measured [kN]",
+            "Measured φ [°]",
+            "Computed [kN]",
+            "Computed φ [°]",
+            "Without bending [kN]",
+        )
     ]
     for load in loads:
         measured, computed, rigid = (f"{1e-3 * value:.2f}" for value in load.half_peaks)
         rows.append((f"{load.mu:g}", "half peak to peak", measured, "", computed, "", rigid))
         for n in LOAD_HARMONICS:
             fit = load.agreement
-            pairs = ((fit.amplitude(n, measured=of), fit.phase_deg(n, measured=of)) for of in (True, False))
-            waves = (text for size, phase in pairs for text in (f"{1e-3 * size:.2f}", f"{phase:.0f}"))
+            pairs = (
+                (fit.amplitude(n, measured=of), fit.phase_deg(n, measured=of))
+                for of in (True, False)
+            )
+            waves = (
+                text for size, phase in pairs for text in (f"{1e-3 * size:.2f}", f"{phase:.0f}")
+            )
             rows.append((f"{load.mu:g}", f"{n}/rev", *waves, ""))
     return tuple(rows)

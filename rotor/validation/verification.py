@@ -38,7 +38,9 @@ def theory_set() -> TrustSet:
     """The equations as solved against what they must satisfy."""
     words, (marched, balanced, second) = description("theory"), marched_flapping("thesis", 0.15)
     flapping = math.degrees(np.abs(marched - balanced).max())
-    bounds = tuple(words.bound(*texts, error(), below, test) for texts, error, below, test in _IDENTITIES)
+    bounds = tuple(
+        words.bound(*texts, error(), below, test) for texts, error, below, test in _IDENTITIES
+    )
     rest = f"The rest is the neglected 2/rev motion ({math.degrees(second):.2f}°)."
     motion = words.row(
         "First-harmonic flapping, µ 0.15, free flapping",
@@ -52,7 +54,15 @@ def theory_set() -> TrustSet:
     chart = Chart(
         "Errors and their bounds",
         Axis("relative error", log=True),
-        Axis(names=("ideal twist", "closed form (3.3)", "parts of the power", "gradient by twist", "eq. (3.15)")),
+        Axis(
+            names=(
+                "ideal twist",
+                "closed form (3.3)",
+                "parts of the power",
+                "gradient by twist",
+                "eq. (3.15)",
+            )
+        ),
         (
             Points("error", [max(row.error or 0.0, 1e-17) for row in bounds], places, 1),
             Points("bound", [row.allowed for row in bounds], places, mark="cross"),
@@ -92,11 +102,15 @@ def _gradient() -> float:
     def at(rate: float) -> Design:
         return make_design(twist=f"linear:{rate:.9g}", mu=0.25)
 
-    exactly = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-12, torsion_tolerance=1e-13)
+    exactly = SolverOptions(
+        residual_tolerance=1e-13, inflow_tolerance=1e-12, torsion_tolerance=1e-13
+    )
     solution = solve(at(-8.0), options=exactly)
     exact = float(power_gradient(solution).along((solution.disk.r - 0.75)[None])[0])
     step = 0.001
-    ends = [solve(at(-8.0 + sign * step), solution, exactly).require().power.total for sign in (1, -1)]
+    ends = [
+        solve(at(-8.0 + sign * step), solution, exactly).require().power.total for sign in (1, -1)
+    ]
     return (ends[0] - ends[1]) / (2.0 * math.radians(step)) / exact - 1.0
 
 
@@ -105,7 +119,10 @@ def _profile() -> float:
     n, m, mu = 2000, 720, 0.35
     r = (np.arange(n) + 0.5) / n
     u = np.abs(r[:, None] + mu * np.sin(2.0 * np.pi * np.arange(m) / m))
-    return float((u**3).mean()) * 0.5 * 0.0821 * 0.01 / profile_power_coefficient(0.0821, 0.01, mu) - 1.0
+    return (
+        float((u**3).mean()) * 0.5 * 0.0821 * 0.01 / profile_power_coefficient(0.0821, 0.01, mu)
+        - 1.0
+    )
 
 
 def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
@@ -114,12 +131,19 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
     β'' + ν²β = Γ Σ(r − e) dC_T/dr(ψ, β, β') dr − w by Runge–Kutta, its last of 12 turns. The load is that of the
     instant's own β and β' in steady flow, with controls and inflow as trimmed; nothing here uses harmonics.
     """
-    design = make_design(preset=preset, twist="linear:-10", mu=mu, off="elastic-twist,unsteady,dynamic-stall")
+    design = make_design(
+        preset=preset, twist="linear:-10", mu=mu, off="elastic-twist,unsteady,dynamic-stall"
+    )
     problem = build_problem(with_models(design, inflow="pitt-peters"))
     trim = newton(problem, first_guess(problem))
     state, elements, model = trim.state, trim.linear.elements, problem.inflow
     assert isinstance(model, LinearInflow)
-    disk, flap, flow, loss = problem.disk, problem.flap, elements.flow, trim.point.channels[LOSS, :, :1]
+    disk, flap, flow, loss = (
+        problem.disk,
+        problem.flap,
+        elements.flow,
+        trim.point.channels[LOSS, :, :1],
+    )
     at_disk = DiskFlow(*design.in_disk_axes(state.shaft_tilt), state.lambda0)
     r, data, arm = disk.r[:, None], problem.section_data(), disk.r - flap.hinge
     spread = np.ones_like(r)
@@ -131,19 +155,34 @@ def marched_flapping(preset: str, mu: float) -> tuple[Array, Array, float]:
     def rates(psi: float, motion: Array) -> list[float]:
         cos, sin = np.array([math.cos(psi)]), np.array([math.sin(psi)])
         channels = np.zeros((len(CHANNELS), len(r), 1))
-        channels[TH] = problem.twist[:, None] + state.collective + state.cyclic_1c * cos + state.cyclic_1s * sin
+        channels[TH] = (
+            problem.twist[:, None]
+            + state.collective
+            + state.cyclic_1c * cos
+            + state.cyclic_1s * sin
+        )
         channels[UT], channels[UR] = r - elements.swirl[:, None] + flow.mu_x * sin, flow.mu_x * cos
         channels[LOSS] = loss
-        channels[UP] = spread * model.field(disk.r, waves_at(3, np.array([psi])), at_disk)[0] + arm[:, None] * motion[1]
+        channels[UP] = (
+            spread * model.field(disk.r, waves_at(3, np.array([psi])), at_disk)[0]
+            + arm[:, None] * motion[1]
+        )
         channels[UP] += flow.mu_z + flow.mu_x * motion[0] * cos
         moment = float(arm * disk.dr @ section(channels, data, False, False)[0][FZ, :, 0])
-        return [float(motion[1]), flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0])]
+        return [
+            float(motion[1]),
+            flap.load_gain * moment - flap.weight - flap.frequency_squared * float(motion[0]),
+        ]
 
     psi, end = 2.0 * math.pi * np.arange(72) / 72, 24.0 * math.pi
-    path = solve_ivp(rates, (0.0, end), [0.05, 0.0], t_eval=end - 2.0 * math.pi + psi, rtol=1e-7, atol=1e-9)
+    path = solve_ivp(
+        rates, (0.0, end), [0.05, 0.0], t_eval=end - 2.0 * math.pi + psi, rtol=1e-7, atol=1e-9
+    )
     assert path.success
     beta: Array = path.y[0]
-    marched = np.array([beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean()])
+    marched = np.array(
+        [beta.mean(), 2.0 * (beta * np.cos(psi)).mean(), 2.0 * (beta * np.sin(psi)).mean()]
+    )
     second = 2.0 * math.hypot((beta * np.cos(2 * psi)).mean(), (beta * np.sin(2 * psi)).mean())
     return marched, np.array([state.coning, state.flap_1c, state.flap_1s]), second
 
@@ -178,7 +217,12 @@ def dynbem_set() -> TrustSet:
     rows = _stored("dynbem")
     power = _percent(rows)
     series = (Line("dynbem's torque over this project's", SPEEDS, power, 1, dots=True),)
-    chart = Chart("Torque of dynbem over this project's", Axis("advance ratio µ"), Axis("difference [%]"), series)
+    chart = Chart(
+        "Torque of dynbem over this project's",
+        Axis("advance ratio µ"),
+        Axis("difference [%]"),
+        series,
+    )
     return description("dynbem").page(f"{power[-1]:+.2f} % at most", rows, (chart,))
 
 
@@ -190,8 +234,15 @@ def ccblade_set() -> TrustSet:
         Line("without swirl", CCBLADE_MASSES, power[0::2], 1, dots=True),
         Line("with swirl", CCBLADE_MASSES, power[1::2], 2, dots=True),
     )
-    chart = Chart("Hover power of CCBlade over this project's", Axis("mass [kg]"), Axis("difference [%]"), series)
-    return description("ccblade").page(f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %", rows, (chart,))
+    chart = Chart(
+        "Hover power of CCBlade over this project's",
+        Axis("mass [kg]"),
+        Axis("difference [%]"),
+        series,
+    )
+    return description("ccblade").page(
+        f"{power[0]:+.2f} %, with swirl {min(power):+.2f} %", rows, (chart,)
+    )
 
 
 def _stored(name: str) -> list[TrustRow]:

@@ -13,7 +13,9 @@ _BESIDE_A = f"{_ALPHA}.some(line => line.colour === 'var(--rx-pinned)')"
 
 
 def overlay_seen(watched: Watched) -> bool:
-    return watched.page.evaluate("() => window.__viserMutable.nodeRefFromName['/rotor/blade_0/overlay'].visible")
+    return watched.page.evaluate(
+        "() => window.__viserMutable.nodeRefFromName['/rotor/blade_0/overlay'].visible"
+    )
 
 
 def total_row(watched: Watched) -> list[str]:
@@ -62,7 +64,8 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     page.keyboard.press("Escape")
     watched.says("against", ": same as A")
     watched.until(lambda: total_row(watched)[2:] == ["0.0", ""])
-    watched.until(lambda: overlay_seen(watched))  # A and B are one blade: the overlay is its jig shape.
+    # A and B are one blade: the overlay is its jig shape.
+    watched.until(lambda: overlay_seen(watched))
     page.wait_for_function(f"() => {_BESIDE_A}")
 
     disk = watched.node("/rotor/disk/field")
@@ -80,12 +83,18 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
 
     page.get_by_role("button", name="Show B − A").click()
     watched.until_changed(lambda: watched.node("/rotor/disk/field"), plain)
-    watched.until(lambda: page.get_by_role("button", name="Show B − A").get_attribute("aria-pressed") == "true")
+    watched.until(
+        lambda: (
+            page.get_by_role("button", name="Show B − A").get_attribute("aria-pressed") == "true"
+        )
+    )
     watched.until(lambda: "B − A" in page.locator('[data-part="unit"]').inner_text())
 
     press(watched, "Disk")
     press(watched, "Wipe A | B")
-    page.wait_for_function("() => RX.state.plan?.wiped && RX.state.plan.wiped.values !== RX.state.plan.disk.values")
+    page.wait_for_function(
+        "() => RX.state.plan?.wiped && RX.state.plan.wiped.values !== RX.state.plan.disk.values"
+    )
     edge = "() => getComputedStyle(document.querySelector('[data-colours]').shadowRoot.lastElementChild).clipPath"
     before = page.evaluate(edge)
     page.locator(".rxs-wipe [role=slider]").press("ArrowLeft")

@@ -41,7 +41,16 @@ def test_the_tab_key_walks_the_whole_page_with_visible_focus(watched: Watched):
         pytest.fail(f"the focus never leaves the page: {reached[-3:]}")
     assert [one for one in reached if not one["seen"]] == []
     names = [one["name"] for one in reached]
-    order = ["Explore", "Settings", "Aircraft", "Turn the rotor", "tip", "Δ outboard [°/R]", "Mass [t]", "Model"]
+    order = [
+        "Explore",
+        "Settings",
+        "Aircraft",
+        "Turn the rotor",
+        "tip",
+        "Δ outboard [°/R]",
+        "Mass [t]",
+        "Model",
+    ]
     assert [name for name in names if name in order] == [
         "Explore",
         "Settings",
@@ -80,11 +89,16 @@ def test_a_drawer_opened_by_key_takes_the_focus_and_escape_gives_it_back(watched
     page.wait_for_function("() => document.activeElement.dataset.value === 'share'")
 
 
-def swipe(session: CDPSession, watched: Watched, start: tuple[float, float], way: tuple[float, float]) -> None:
+def swipe(
+    session: CDPSession, watched: Watched, start: tuple[float, float], way: tuple[float, float]
+) -> None:
     """A finger set down, moved and lifted."""
     for k in range(13):
         point = {"x": start[0] + way[0] * k / 12, "y": start[1] + way[1] * k / 12}
-        session.send("Input.dispatchTouchEvent", {"type": "touchMove" if k else "touchStart", "touchPoints": [point]})
+        session.send(
+            "Input.dispatchTouchEvent",
+            {"type": "touchMove" if k else "touchStart", "touchPoints": [point]},
+        )
         watched.page.wait_for_timeout(40 if k else 250)
     watched.answered()
     session.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
@@ -92,7 +106,9 @@ def swipe(session: CDPSession, watched: Watched, start: tuple[float, float], way
 
 def on_a_phone(browser: Browser, address: str) -> Watched:
     """A page that nothing is drawn on, 390 × 844 pixels wide and high; its context is the caller's to close."""
-    context = browser.new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
+    context = browser.new_context(
+        viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True
+    )
     context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
     watched.open(address)
@@ -112,14 +128,18 @@ def test_menu_drawers_lists_and_disk_answer_taps_on_a_phone(browser: Browser, ap
     assert page.evaluate("""() => [...document.querySelectorAll('[data-dock-region] .mantine-ScrollArea-viewport')]
         .every(sheet => sheet.scrollWidth <= sheet.clientWidth)""")
     # The list of the lowest row reaches below the window: the page stays as wide and the list open.
-    page.evaluate("() => { window.resized = 0; window.addEventListener('resize', () => window.resized++); }")
+    page.evaluate(
+        "() => { window.resized = 0; window.addEventListener('resize', () => window.resized++); }"
+    )
     watched.row("Drawn twist").locator("input").first.tap()
     page.get_by_role("option", name="×2", exact=True).wait_for()
     watched.drawn()
     assert page.evaluate("() => [innerWidth, innerHeight, window.resized]") == [390, 844, 0]
     page.get_by_role("option", name="×2", exact=True).tap()
     # A mode has its controls on the sheet from the first, also where a drawer stood and the controls were moved up.
-    panel = "document.querySelector('[data-dock-region=right] .mantine-ScrollArea-viewport').scrollTop"
+    panel = (
+        "document.querySelector('[data-dock-region=right] .mantine-ScrollArea-viewport').scrollTop"
+    )
     assert page.evaluate(f"() => {panel} = 90") == page.evaluate(f"() => {panel}") == 90
     page.locator(".rxf-modes [data-value=optimise]").tap()
     page.wait_for_selector('[data-explorer="drawer"]', state="detached")
@@ -134,7 +154,8 @@ def test_menu_drawers_lists_and_disk_answer_taps_on_a_phone(browser: Browser, ap
     page.wait_for_selector('[data-explorer="drawer"][data-name="probe"]')
     page.locator("[data-page=charts]").tap()
     watched.reads("around", r"0\.(49|5\d) R")
-    page.set_viewport_size({"width": 300, "height": 650})  # A telephone whose text is 130 % as large.
+    # A telephone whose text is 130 % as large.
+    page.set_viewport_size({"width": 300, "height": 650})
     rotor, more = watched.box(".rxf-rotor"), watched.box("[data-page=more]")
     assert rotor["width"] > 55.0
     assert more["x"] + more["width"] <= 300.0
@@ -168,13 +189,18 @@ def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: Browser, app:
     watched.until_changed(outer, by_slider)
     by_curve = watched.at_rest(outer)
     assert -20.0 <= by_curve < by_slider - 2.0
-    camera: Any = watched.at_rest(lambda: page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
+    camera: Any = watched.at_rest(
+        lambda: page.evaluate("() => window.__viserMutable.camera.position.toArray()")
+    )
     x, y = watched.at_rest(lambda: page.evaluate(ON_SCREEN, 7.2))
-    swipe(session, watched, (x, y), (0.0, 30.0))  # Seen from the tip, the trailing edge goes down: nose up.
+    # Seen from the tip, the trailing edge goes down: nose up.
+    swipe(session, watched, (x, y), (0.0, 30.0))
     watched.until_changed(outer, by_curve)
     by_blade = watched.at_rest(outer)
     assert by_blade > by_curve + 1.0  # The tip was turned up.
     # The camera follows the shaft tilt; an orbit would have moved it by metres.
-    assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=0.6)
+    assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(
+        camera, abs=0.6
+    )
     watched.page.wait_for_function("() => RX.state.hand === null")
     watched.close()

@@ -35,7 +35,9 @@ def violations(watched: Watched) -> list[str]:
     found = ["not asked"]
     for _ in range(20):
         watched.answered()
-        watched.page.wait_for_function("() => !document.querySelector('[data-faded], [data-stale]')", timeout=4 * WAIT)
+        watched.page.wait_for_function(
+            "() => !document.querySelector('[data-faded], [data-stale]')", timeout=4 * WAIT
+        )
         if not (found := watched.page.evaluate(CHECK) + watched.page.evaluate(UNREAD)):
             break
         watched.page.wait_for_timeout(500)

@@ -41,7 +41,9 @@ def test_the_lifted_blade_is_pulled_by_its_voltage_and_the_camera_stays(watched:
     camera = "() => window.__viserMutable.camera.position.toArray()"
     x, y = watched.at_rest(lambda: page.evaluate(TIP))
     page.mouse.move(x, y)
-    watched.until(lambda: page.evaluate("() => window.__viserMutable.canvas.style.cursor") == "grab")
+    watched.until(
+        lambda: page.evaluate("() => window.__viserMutable.canvas.style.cursor") == "grab"
+    )
     stood = page.evaluate(camera)
     page.mouse.down()
     page.mouse.move(x, y - 75, steps=4)  # Trailing edge up, nose down: half of the voltage.
@@ -85,10 +87,14 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     bar.fill("3")
     watched.until_changed(lambda: watched.text("actuator-now"), still)
     watched.answered()
-    twist = page.evaluate("() => RX.state.flight.chart.series.find(one => one.label === 'by schedule').y.at(-1)")
+    twist = page.evaluate(
+        "() => RX.state.flight.chart.series.find(one => one.label === 'by schedule').y.at(-1)"
+    )
     tip = watched.text("tip-twist")
     assert float(tip.rstrip("°").replace("−", "-")) == pytest.approx(twist, abs=0.006)
-    watched.until(lambda: f"{tip} at the tip" in labels.inner_text() and tip in watched.text("actuator-twist"))
+    watched.until(
+        lambda: f"{tip} at the tip" in labels.inner_text() and tip in watched.text("actuator-twist")
+    )
     # Magnified eight times; the blade as flown twists a little otherwise than at rest.
     assert angle(watched) - rest == pytest.approx(8.0 * twist, rel=0.25)
     assert "mu=0.33" in page.url
@@ -109,7 +115,9 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
 
 
 @pytest.mark.slow
-def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keeps_the_voltage(watched: Watched):
+def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keeps_the_voltage(
+    watched: Watched,
+):
     page = watched.page
     page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     names = "as set", "by schedule", "stopped"
@@ -122,8 +130,14 @@ def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keep
         expect(states[state]).to_have_attribute("aria-pressed", "true")
         watched.answered()
         tip = watched.at_rest(lambda: watched.text("tip-twist"))
-        watched.until(lambda: f"{tip} at the tip" in labels.inner_text() and tip == watched.text("actuator-twist"))
-        watched.reads("line", rf" with MFC P1 {state.removeprefix('as set')} ?at ".replace("  ", " "))
+        watched.until(
+            lambda: (
+                f"{tip} at the tip" in labels.inner_text() and tip == watched.text("actuator-twist")
+            )
+        )
+        watched.reads(
+            "line", rf" with MFC P1 {state.removeprefix('as set')} ?at ".replace("  ", " ")
+        )
         power = watched.text("total-power")
         watched.reads("flight", f"{state}: {power}")
         return tip, power
@@ -140,7 +154,9 @@ def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keep
     fast = seen("stopped")
     assert fast[0] == slow[0]
     assert fast[1] != slow[1]
-    page.get_by_role("button", name="Disk", exact=True).click()  # Elsewhere, too, it is stopped with its voltage.
+    page.get_by_role(
+        "button", name="Disk", exact=True
+    ).click()  # Elsewhere, too, it is stopped with its voltage.
     watched.answered()
     assert (watched.text("total-power"), watched.field("Voltage").input_value()) == (fast[1], "77")
     page.get_by_role("button", name="Actuator", exact=True).click()
@@ -177,4 +193,6 @@ def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     page.goto(address)  # As a colleague gets it: it opens where the dot stands.
     page.wait_for_function("() => RX.state.suppose?.chart", timeout=VERDICT)
     page.get_by_role("button", name="Extra power").click()
-    page.wait_for_function("() => !RX.state.suppose && !location.search.includes('i=')", timeout=VERDICT)
+    page.wait_for_function(
+        "() => !RX.state.suppose && !location.search.includes('i=')", timeout=VERDICT
+    )

@@ -14,7 +14,8 @@ from explorer.app import App
 pytestmark = pytest.mark.slow
 
 COLLIDE, FRAME = (
-    (Path(__file__).parent / name).read_text(encoding="utf-8") for name in ("collisions.js", "framing.js")
+    (Path(__file__).parent / name).read_text(encoding="utf-8")
+    for name in ("collisions.js", "framing.js")
 )
 WINDOWS = {"desk": [(1500, 940), (1280, 720)], "sheet": [(812, 734), (390, 844), (844, 390)]}
 """Sizes of one page: in each state it is drawn out, or turned as a telephone is. One with a sheet opens with it."""
@@ -31,16 +32,21 @@ def send(watched: Watched, *message: Any) -> None:
 
 def found(watched: Watched, view: str) -> list[str]:
     """What is wrong in this state."""
-    watched.page.mouse.move(1, 1)  # Where it pressed last it would bring the hint of what stands there now.
+    # Where it pressed last it would bring the hint of what stands there now.
+    watched.page.mouse.move(1, 1)
     look = f"view => [...({COLLIDE})(), ...(view && ({FRAME})(view))]"
     covered, stands = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
-    faults = watched.page.evaluate(look, view) and watched.at_rest(lambda: watched.page.evaluate(look, view))
+    faults = watched.page.evaluate(look, view) and watched.at_rest(
+        lambda: watched.page.evaluate(look, view)
+    )
     if view:
         send(watched, "aim")
         now_covered, framed = watched.at_rest(lambda: watched.page.evaluate(CAMERA))
         far = max(abs(now - then) for now, then in zip(framed, stands, strict=True)) > FAR
         if far and now_covered == covered:  # The notice of a search grows with its words.
-            faults.append(f"{view} is not framed anew: the camera stood at {stands} dm, an aim puts it at {framed} dm")
+            faults.append(
+                f"{view} is not framed anew: the camera stood at {stands} dm, an aim puts it at {framed} dm"
+            )
     return faults
 
 
@@ -84,7 +90,9 @@ def explore(watched: Watched) -> States:
         page.wait_for_function("() => RX.state.hand?.best")
         yield name, ""
     page.keyboard.press("Escape")
-    page.wait_for_function("() => !RX.state.twisting && !document.documentElement.hasAttribute('data-twisting')")
+    page.wait_for_function(
+        "() => !RX.state.twisting && !document.documentElement.hasAttribute('data-twisting')"
+    )
     yield "let go", "3d"
 
 
@@ -93,7 +101,9 @@ def optimise(watched: Watched) -> States:
     watched.mode("optimise")
     yield "before a search", "3d"
     watched.choose("Concept", "Three segments, free break points")
-    begin = page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True)
+    begin = page.locator("[data-dock-region=right]").get_by_role(
+        "button", name="Optimise", exact=True
+    )
     begin.click()
     page.locator("[data-explorer=notice]").wait_for(state="visible")
     yield "while it searches", "3d"
@@ -148,7 +158,9 @@ def lecture(watched: Watched) -> States:
     page.get_by_role("button", name="Start the lecture").click()
     for step in (1, 2):
         page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]')
-        page.wait_for_function("k => RX.state.steps[k].control.words.length > 0", arg=step - 1, timeout=4 * WAIT)
+        page.wait_for_function(
+            "k => RX.state.steps[k].control.words.length > 0", arg=step - 1, timeout=4 * WAIT
+        )
         yield f"step {step}", ""
         page.locator(f'.rxs-list > [data-step="{step}"] .rxs-guess button').first.click()
         page.wait_for_function("() => RX.state.lecture.answer")
@@ -171,8 +183,12 @@ def sized(
     watched.close()
 
 
-@pytest.mark.parametrize("states", [explore, optimise, actuate, lecture], ids=lambda states: states.__name__)
-def test_nothing_collides(sized: tuple[Watched, list[tuple[int, int]]], states: Callable[[Watched], States]):
+@pytest.mark.parametrize(
+    "states", [explore, optimise, actuate, lecture], ids=lambda states: states.__name__
+)
+def test_nothing_collides(
+    sized: tuple[Watched, list[tuple[int, int]]], states: Callable[[Watched], States]
+):
     watched, sizes = sized
     watched.reset()
     send(watched, "view", "3d")

@@ -46,7 +46,9 @@ def test_a_drag_on_the_dial_is_foreseen_and_one_undo(watched: Watched):
     numbers = DialNumbers(**{one.name: matrix[one.name] for one in fields(DialNumbers)})
     expected = foreseen(numbers, (Harmonic(3, math.radians(0.8), math.radians(60.0)),))
     parts = [0.0, 0.0, 0.4, 0.8 * math.sin(math.radians(60.0)), 0.0, 0.0, 0.0, 0.0]
-    assert page.evaluate("x => RX.foresee(RX.state.dial_matrix, x)", parts) == pytest.approx(expected)
+    assert page.evaluate("x => RX.foresee(RX.state.dial_matrix, x)", parts) == pytest.approx(
+        expected
+    )
     page.evaluate("RX.send('undo')")
     watched.until(lambda: page.evaluate(NOW) == [])
     watched.answered()  # A dial that is drawn anew between focus and key would lose the key.

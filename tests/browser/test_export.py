@@ -65,7 +65,9 @@ def foreign(asked: list[str]) -> list[str]:
 
 
 @pytest.mark.slow
-def test_the_picture_is_the_same_from_a_window_of_another_shape(watched: Watched, visit: Visit, tmp_path: Path):
+def test_the_picture_is_the_same_from_a_window_of_another_shape(
+    watched: Watched, visit: Visit, tmp_path: Path
+):
     telephone = visit(size=(390, 844))
     telephone.answered()
     pictures = []
@@ -86,7 +88,9 @@ def test_the_page_that_travels_is_small_and_has_its_numbers(watched: Watched, tm
     assert len(text) < 2_000_000
     assert asks_nobody(text)
     assert 'id="model"' in text
-    assert f"needs {watched.text('total-power').replace(chr(0x2009), '')}" in text.replace("\u2009", "")
+    assert f"needs {watched.text('total-power').replace(chr(0x2009), '')}" in text.replace(
+        "\u2009", ""
+    )
 
 
 def asks_nobody(text: str) -> bool:
@@ -125,7 +129,9 @@ def test_a_report_fills_three_pages_of_a4(browser: Browser, tmp_path: Path):
     page = window(browser).new_page()
     for inputs in (Inputs(law="builtin"), Inputs(law="builtin", built_inner=-1.0)):
         now, before = solve(inputs.design()), solve(baseline_of(inputs.design()))
-        report = DesignReport(ReportEntry("As built", before), [ReportEntry("Now", now)], ViewState())
+        report = DesignReport(
+            ReportEntry("As built", before), [ReportEntry("Now", now)], ViewState()
+        )
         path = tmp_path / "report.html"
         path.write_text(report_html(report, None, rotor=drawn.getvalue()), encoding="utf-8")
         page.goto(path.as_uri())
@@ -135,20 +141,38 @@ def test_a_report_fills_three_pages_of_a4(browser: Browser, tmp_path: Path):
 
 
 @pytest.mark.parametrize("width", [900, 1500])
-def test_no_report_is_wider_than_its_page_and_its_line_is_short(browser: Browser, tmp_path: Path, width: int):
+def test_no_report_is_wider_than_its_page_and_its_line_is_short(
+    browser: Browser, tmp_path: Path, width: int
+):
     plain = make_design(inflow="drees", elements=16, azimuths=36)
     rates, breaks = ",".join(["-9.25"] * 40), ",".join(f"{k / 40:g}" for k in range(1, 40))
-    named = replace(plain, rotor=replace(plain.rotor, name="A rotor of one's own with a name that has no end at all"))
+    named = replace(
+        plain,
+        rotor=replace(plain.rotor, name="A rotor of one's own with a name that has no end at all"),
+    )
     page = window(browser).new_page()
     page.set_viewport_size({"width": width, "height": 900})
-    for design in (ActuatorInputs(drives=(77.0,) * 5).apply(named), plain.with_twist(f"segments:{rates}@{breaks}")):
-        now, before = ReportEntry("Now", solve(design)), ReportEntry("Baseline", solve(baseline_of(design)))
+    for design in (
+        ActuatorInputs(drives=(77.0,) * 5).apply(named),
+        plain.with_twist(f"segments:{rates}@{breaks}"),
+    ):
+        now, before = (
+            ReportEntry("Now", solve(design)),
+            ReportEntry("Baseline", solve(baseline_of(design))),
+        )
         path = tmp_path / "report.html"
-        path.write_text(report_html(DesignReport(before, [now], ViewState()), None), encoding="utf-8")
+        path.write_text(
+            report_html(DesignReport(before, [now], ViewState()), None), encoding="utf-8"
+        )
         page.goto(path.as_uri())
         assert page.evaluate("() => document.documentElement.scrollWidth") == width
         title = page.locator("h1")
-        assert title.evaluate("title => title.offsetHeight / parseFloat(getComputedStyle(title).lineHeight)") < 2.5
+        assert (
+            title.evaluate(
+                "title => title.offsetHeight / parseFloat(getComputedStyle(title).lineHeight)"
+            )
+            < 2.5
+        )
     page.close()
 
 

@@ -10,7 +10,9 @@ def test_open_grab_undo_reload_link_disk_hover_optimise_apply(visit: Visit):
     page = watched.page
 
     def kilowatts() -> float:
-        return float(watched.text("total-power").split("kW")[0].replace("\u2009", "").replace(" ", ""))
+        return float(
+            watched.text("total-power").split("kW")[0].replace("\u2009", "").replace(" ", "")
+        )
 
     def grabbed(down: float) -> None:
         """Take the blade by its tip and pull it down so many pixels."""
@@ -59,7 +61,9 @@ def test_open_grab_undo_reload_link_disk_hover_optimise_apply(visit: Visit):
     # Optimise, watch, keep: less power than as built, and the address has it.
     before = page.url
     page.get_by_role("button", name="Optimise this blade").click()
-    page.wait_for_function("() => RX.state.notice?.text.startsWith('Previewing optimum')", timeout=180_000)
+    page.wait_for_function(
+        "() => RX.state.notice?.text.startsWith('Previewing optimum')", timeout=180_000
+    )
     page.get_by_role("button", name="Apply").first.click()
     page.wait_for_function("() => RX.state.notice === null")
     watched.answered()

@@ -12,7 +12,9 @@ SIZE = (1500, 940)
 
 def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit):
     watched = visit(size=SIZE)
-    as_built = watched.reads("line", r"^The UH-60A of 8\.32 t at µ 0\.200 with its twist as built needs \d+ ± \d+ kW")
+    as_built = watched.reads(
+        "line", r"^The UH-60A of 8\.32 t at µ 0\.200 with its twist as built needs \d+ ± \d+ kW"
+    )
     watched.says("prompt", "Drag the blade tip up or down")
     watched.press("Δ outboard", "ArrowRight", 3)
     watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden")
@@ -28,12 +30,19 @@ def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watche
     for name, title in DRAWERS.items():
         watched.drawer(name)
         watched.until(lambda title=title: watched.text("drawer").startswith(title))
-        page.wait_for_function("() => document.querySelector('canvas').getBoundingClientRect().left > 300")
+        page.wait_for_function(
+            "() => document.querySelector('canvas').getBoundingClientRect().left > 300"
+        )
         page.keyboard.press("Escape")
         page.wait_for_selector('[data-explorer="drawer"]', state="detached")
-        page.wait_for_function("() => document.querySelector('canvas').getBoundingClientRect().left < 2")
+        page.wait_for_function(
+            "() => document.querySelector('canvas').getBoundingClientRect().left < 2"
+        )
     # The status opens trust, and the parts of power open the numbers.
-    for press, name, part in ((".rxf-chip", "trust", "provenance"), (".rxf-parts", "details", "trim")):
+    for press, name, part in (
+        (".rxf-chip", "trust", "provenance"),
+        (".rxf-parts", "details", "trim"),
+    ):
         page.locator(press).click()
         page.wait_for_selector(f'[data-explorer="drawer"][data-name="{name}"]')
         page.wait_for_selector(f'[data-explorer="{part}"]')
@@ -56,7 +65,8 @@ def test_the_twist_curve_is_dragged_beside_the_live_disk(watched: Watched):
     page.mouse.up()
     page.wait_for_function("() => RX.state.hand === null")
     watched.until_changed(lambda: watched.text("total-power"), before)
-    assert 2.0 < watched.at_rest(lambda: watched.number("Δ outboard")) < 20.0  # Up is nose-up: less washout.
+    # Up is nose-up: less washout.
+    assert 2.0 < watched.at_rest(lambda: watched.number("Δ outboard")) < 20.0
     watched.reads("moved", r"^[\d.]+$")
     x, y = watched.middle('[data-knot="1"]')
     watched.drag(x, y, by=(40.0, 0.0))
@@ -114,7 +124,9 @@ def test_in_a_narrow_window_the_rail_is_a_drawer(watched: Watched):
     width = "() => document.querySelector('canvas').getBoundingClientRect().width"
     page.wait_for_function(f"() => ({width})() === 1000")
     page.get_by_role("button", name="Controls").click()
-    page.wait_for_function("() => document.querySelector('[data-dock-region=right]').checkVisibility()")
+    page.wait_for_function(
+        "() => document.querySelector('[data-dock-region=right]').checkVisibility()"
+    )
     page.wait_for_function(  # Once it has slid in.
         "() => Math.abs(document.querySelector('[data-dock-region=right]').getBoundingClientRect().right - 1000) <= 1"
     )

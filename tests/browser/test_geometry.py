@@ -80,11 +80,15 @@ def test_a_sentence_is_not_cut_and_moves_nothing(sized: Watched, size: tuple[int
         shown = " ".join(watched.text("why").split())
         assert shown.endswith(".")
         assert why.replace("\u00a0", " ").startswith(shown.replace("\u00a0", " ").removesuffix("."))
-        assert page.evaluate("() => (e => e.scrollHeight <= e.clientHeight + 1)(document.querySelector('.rxf-why'))")
+        assert page.evaluate(
+            "() => (e => e.scrollHeight <= e.clientHeight + 1)(document.querySelector('.rxf-why'))"
+        )
     assert stands[0] == stands[1] == stands[2]
 
 
-def test_the_lecture_is_a_column_beside_the_scene_and_three_numbers(sized: Watched, size: tuple[int, int]):
+def test_the_lecture_is_a_column_beside_the_scene_and_three_numbers(
+    sized: Watched, size: tuple[int, int]
+):
     watched, page, rail = sized, sized.page, sized.page.locator("[data-dock-region=right]")
     page.keyboard.press("t")
     page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')

@@ -15,7 +15,9 @@ LONG = 600_000
 def stands_at(page: Page, step: int) -> None:
     """A step stands, and its numbers have come."""
     page.wait_for_selector(f'[data-explorer="lecture"][data-step="{step}"]')
-    page.wait_for_function("k => RX.state.steps[k].control.words.length > 0", arg=step - 1, timeout=LONG)
+    page.wait_for_function(
+        "k => RX.state.steps[k].control.words.length > 0", arg=step - 1, timeout=LONG
+    )
 
 
 def section(page: Page, step: int) -> Locator:
@@ -55,7 +57,8 @@ def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
     watched.answered()
     told = figures.all_inner_texts()
     assert all(any(character.isdigit() for character in one) for one in told)
-    assert section(page, 2).locator("[data-right]").count() == 2  # The right answer, and the word on the guess.
+    # The right answer, and the word on the guess.
+    assert section(page, 2).locator("[data-right]").count() == 2
     slider = section(page, 2).locator("[data-stop]")
     slider.press("End")
     design_in_address(watched, "linear:-24;mu=0")
@@ -69,7 +72,8 @@ def test_the_lecture_asks_answers_and_gives_the_design_back(visit: Visit):
     expect(section(page, 2).locator("[data-chosen]")).to_have_count(1)  # A guess is made once.
     page.evaluate("k => RX.send('story', k)", len(STEPS) - 1)
     page.wait_for_function("() => RX.state.bar.mode === 'actuate'")
-    expect(page.locator(".rxf-stage :is(input[type=range], [data-fly]):visible")).to_have_count(0)  # The step has them.
+    # The step has them.
+    expect(page.locator(".rxf-stage :is(input[type=range], [data-fly]):visible")).to_have_count(0)
     page.get_by_role("button", name="End", exact=True).click()
     page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
     design_in_address(watched, own)  # The visitor's own design is back.
@@ -90,7 +94,9 @@ def test_a_scroll_by_hand_is_a_step_and_a_new_layout_none(visit: Visit):
     page.wait_for_selector('[data-explorer="lecture"][data-step="1"]')
     watched.answered()
     page.locator(".rxs-list").hover()
-    page.mouse.wheel(0, page.evaluate("() => document.querySelector('.rxs-list').children[2].offsetTop"))
+    page.mouse.wheel(
+        0, page.evaluate("() => document.querySelector('.rxs-list').children[2].offsetTop")
+    )
     page.wait_for_selector('[data-explorer="lecture"][data-step="3"]')
     design_in_address(watched, "inflow=pitt-peters")
     page.evaluate("() => RX.send('story', 3)")
@@ -126,7 +132,8 @@ def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit
         moved = section(other, k).locator("[data-stop], .rxs-guess button")
         follower.until(
             lambda moved=moved: all(
-                one.is_disabled() for one in (*moved.all(), *other.locator(".rxs-dots button").all())
+                one.is_disabled()
+                for one in (*moved.all(), *other.locator(".rxs-dots button").all())
             )
         )
         other.get_by_role("button", name="Next", exact=True).wait_for(state="hidden")
@@ -144,7 +151,9 @@ def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit
     page.get_by_role("slider", name="Between A").press("ArrowRight")
     other.wait_for_function("() => Math.abs(rotorWipe.at - 0.55) < 1e-6")
     steps = other.locator(".rxs-list")  # The follower's column stands at the same step.
-    follower.until(lambda: steps.evaluate("list => Math.abs(list.scrollTop - list.children[2].offsetTop) < 40"))
+    follower.until(
+        lambda: steps.evaluate("list => Math.abs(list.scrollTop - list.children[2].offsetTop) < 40")
+    )
     page.keyboard.press("t")
     other.wait_for_selector('[data-explorer="lecture"]', state="hidden")
 

@@ -31,23 +31,35 @@ def fits(watched: Watched, sizes: list[tuple[int, int]], dragged: str) -> None:
     """At each size the line has the width of the window, two rows at most and the scene below it."""
     for width, height in reversed(sizes):
         watched.page.set_viewport_size({"width": width, "height": height})
-        box, canvas, met = watched.at_rest(lambda: watched.page.evaluate(FITS, f"[data-slide='{dragged}']"))
-        assert (box[0], box[1], box[4], abs(canvas[2] - box[3]) < 2) == (0, width, 0, True), (width, height)
+        box, canvas, met = watched.at_rest(
+            lambda: watched.page.evaluate(FITS, f"[data-slide='{dragged}']")
+        )
+        assert (box[0], box[1], box[4], abs(canvas[2] - box[3]) < 2) == (0, width, 0, True), (
+            width,
+            height,
+        )
         assert box[5] <= 2, (width, height)
         assert met == dragged, (width, height)
 
 
 @pytest.mark.parametrize("sizes", WINDOWS.values(), ids=WINDOWS)
-def test_numbers_of_the_line_move_their_sliders_in_every_mode(visit: Visit, sizes: list[tuple[int, int]]):
+def test_numbers_of_the_line_move_their_sliders_in_every_mode(
+    visit: Visit, sizes: list[tuple[int, int]]
+):
     watched = visit(size=sizes[0])
     page = watched.page
     watched.answered()
     as_built = watched.text("line")
     assert numbers(watched).keys() == {"mass_t", "advance_ratio", "built_outer"}
-    if sizes == WINDOWS["desk"]:  # In the rail its number shows where the pointer is: on the row's name, too.
+    # In the rail its number shows where the pointer is: on the row's name, too.
+    if sizes == WINDOWS["desk"]:
         for label, other in (("Mass", "Adv. ratio"), ("Adv. ratio", "Mass")):
             watched.row(label).locator("label").hover()
-            watched.until(lambda label=label: watched.field(label).evaluate("e => getComputedStyle(e).opacity") == "1")
+            watched.until(
+                lambda label=label: (
+                    watched.field(label).evaluate("e => getComputedStyle(e).opacity") == "1"
+                )
+            )
             assert watched.field(other).evaluate("e => getComputedStyle(e).opacity") == "0"
     # Tab goes from one to the next; a key is a step of the slider, and one press of undo takes it back.
     page.locator("[data-slide=mass_t]").focus()
@@ -61,7 +73,11 @@ def test_numbers_of_the_line_move_their_sliders_in_every_mode(visit: Visit, size
     page.keyboard.press("Control+z")
     watched.until(lambda: watched.text("line").split(" ±")[0] == as_built.split(" ±")[0])
     # A drag with a pause is one step too; what is said meanwhile is that of the sliders.
-    for place, dragged in (("explore", "built_outer"), ("optimise", "mass_t"), ("actuate", "drive 0")):
+    for place, dragged in (
+        ("explore", "built_outer"),
+        ("optimise", "mass_t"),
+        ("actuate", "drive 0"),
+    ):
         if place != "explore":
             watched.mode(place)
             watched.answered()
@@ -84,7 +100,11 @@ def test_numbers_of_the_line_move_their_sliders_in_every_mode(visit: Visit, size
             assert watched.number(label) == pytest.approx(after)
         page.evaluate("() => document.activeElement.blur()")
         page.locator("[data-do=undo]").first.click()
-        watched.until(lambda name=dragged, before=before: numbers(watched).get(name, [None, None])[1] == before)
+        watched.until(
+            lambda name=dragged, before=before: (
+                numbers(watched).get(name, [None, None])[1] == before
+            )
+        )
     watched.reads("line", r"with MFC P1 at 0\s%.* than without it, (sure|likely|unclear)")
     # Above it, the lecture says it too.
     watched.mode("explore")

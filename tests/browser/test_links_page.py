@@ -10,7 +10,9 @@ from explorer.app import App
 from explorer.model.inputs import OPENING, Inputs
 from explorer.sharing.share import code_of
 
-BUILT = replace(OPENING, built_inner=-2.0471, built_outer=1.5, built_division=0.793, advance_ratio=0.25)
+BUILT = replace(
+    OPENING, built_inner=-2.0471, built_outer=1.5, built_division=0.793, advance_ratio=0.25
+)
 
 
 def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
@@ -24,7 +26,8 @@ def holds(app: App, watched: Watched, inputs: Inputs) -> bool:
 def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
     watched = visit()
     page = watched.page
-    watched.press("Δ inboard [°/R]", "ArrowLeft", 3)  # By hand first: the page itself writes the address.
+    # By hand first: the page itself writes the address.
+    watched.press("Δ inboard [°/R]", "ArrowLeft", 3)
     page.wait_for_function("() => location.search.includes('~segments:-0.3,0@0.5')")
     by_hand = replace(OPENING, built_inner=-0.3)
     page.reload()
@@ -35,7 +38,11 @@ def test_a_design_survives_reload_link_and_back(visit: Visit, app: App):
     page.reload()
     watched.ready()
     watched.until(lambda: holds(app, watched, BUILT))
-    for label, shown in (("Δ inboard [°/R]", "-2.0"), ("Break point [r/R]", "0.79")):  # Rounded; the design is exact.
+    # Rounded; the design is exact.
+    for label, shown in (
+        ("Δ inboard [°/R]", "-2.0"),
+        ("Break point [r/R]", "0.79"),
+    ):
         expect(watched.row(label).get_by_role("textbox")).to_have_value(shown)
     page.keyboard.press("r")
     watched.until(lambda: holds(app, watched, OPENING))

@@ -55,7 +55,10 @@ def power(page: Page) -> float:
 
 def test_a_slider_shows_the_power_that_a_trim_has(page: Page, made: Fitted):
     assert power(page) == pytest.approx(made.solution.power.total / 1e3, abs=0.5)
-    slider, colours = page.get_by_label("Outboard"), "() => document.querySelector('canvas').toDataURL()"
+    slider, colours = (
+        page.get_by_label("Outboard"),
+        "() => document.querySelector('canvas').toDataURL()",
+    )
     before = page.evaluate(colours)
     slider.focus()
     for _ in range(30):
@@ -71,15 +74,20 @@ def test_a_slider_shows_the_power_that_a_trim_has(page: Page, made: Fitted):
     assert f"{tip:+.1f}°".replace("-", "−") in page.locator(".inset svg text").all_text_contents()
     line = page.inner_text("h1")
     assert f"needs {power(page):.0f}\u00a0±\u00a0" in line
-    change, within, word = re.findall(r": ([\d.]+)\u00a0±\u00a0([\d.]+)\u00a0kW \w+ than as shared, (\w+)", line)[0]
-    assert float(within) >= float(np.sqrt(np.mean(made.errors**2))) / 1e3 - 0.05  # That of the polynomials is in it.
+    change, within, word = re.findall(
+        r": ([\d.]+)\u00a0±\u00a0([\d.]+)\u00a0kW \w+ than as shared, (\w+)", line
+    )[0]
+    # That of the polynomials is in it.
+    assert float(within) >= float(np.sqrt(np.mean(made.errors**2))) / 1e3 - 0.05
     assert word == sureness(float(change), float(within))
 
 
 def test_the_best_twist_and_the_way_back(page: Page, made: Fitted):
     values, best = made.best
     page.get_by_role("button", name="Least power in these ranges").click()
-    page.wait_for_function("() => document.querySelector('h1').innerText.includes('less than as shared')")
+    page.wait_for_function(
+        "() => document.querySelector('h1').innerText.includes('less than as shared')"
+    )
     assert power(page) == pytest.approx(best.power.total / 1e3, abs=made.error / 1e3 + 0.5)
     shown = [float(page.locator(".slider input").nth(k).input_value()) for k in range(len(values))]
     assert shown == pytest.approx(values)
@@ -91,13 +99,17 @@ def test_another_field_has_other_colours_and_its_scale(page: Page):
     colours = "() => document.querySelector('canvas').toDataURL()"
     before = page.evaluate(colours)
     page.get_by_role("button", name="Induced inflow λi").click()
-    page.wait_for_function("was => document.querySelector('canvas').toDataURL() !== was", arg=before)
+    page.wait_for_function(
+        "was => document.querySelector('canvas').toDataURL() !== was", arg=before
+    )
     assert page.locator("[data-scale]:visible").inner_text().startswith("Induced inflow")
 
 
 def test_no_other_script_runs(browser: Browser, path: Path, tmp_path: Path):
     other = tmp_path / "other.html"
-    text = path.read_text(encoding="utf-8").replace("</main>", "<script>document.title = 'changed'</script></main>")
+    text = path.read_text(encoding="utf-8").replace(
+        "</main>", "<script>document.title = 'changed'</script></main>"
+    )
     other.write_text(text, encoding="utf-8")
     page = window(browser).new_page()
     page.goto(other.as_uri())

@@ -26,7 +26,9 @@ def go(watched: Watched, place: str) -> None:
         page.wait_for_selector('[data-explorer="lecture"]', state="hidden")
     else:
         watched.mode("actuate")
-        page.get_by_role("button", name={"rotor": "Aircraft", "actuator": "Actuator"}[place], exact=True).click()
+        page.get_by_role(
+            "button", name={"rotor": "Aircraft", "actuator": "Actuator"}[place], exact=True
+        ).click()
 
 
 @pytest.mark.slow
@@ -36,9 +38,16 @@ def test_one_number_is_seen_and_it_is_of_the_design(visit: Visit, app: App):
     for k, place in enumerate(WALK):
         go(watched, place)
         page.evaluate("mu => RX.send('slide', ['advance_ratio', mu])", 0.1 + 0.01 * k)
-        watched.until(lambda k=k: server.context.controls.inputs().advance_ratio == pytest.approx(0.1 + 0.01 * k))
+        watched.until(
+            lambda k=k: (
+                server.context.controls.inputs().advance_ratio == pytest.approx(0.1 + 0.01 * k)
+            )
+        )
         watched.until(lambda: [name for name, _ in page.evaluate(SEEN)] == ["total-power"])
         kw = kilowatts(design_of(server))
         watched.until(
-            lambda kw=kw: abs(float(page.evaluate(SEEN)[0][1].split(" kW")[0].replace("\u2009", "")) - kw) < 0.51
+            lambda kw=kw: (
+                abs(float(page.evaluate(SEEN)[0][1].split(" kW")[0].replace("\u2009", "")) - kw)
+                < 0.51
+            )
         )

@@ -21,7 +21,11 @@ from explorer.workers.background import PoolAnswers
 pytestmark = pytest.mark.slow
 START = Inputs(law="two", preset="thesis")
 SECTIONS = {"optimise": ("Search", "Map", "Schedule"), "open": ("Files", "History")}
-PANELS = [(name, part) for name in ("explore", "optimise", "actuate", *DRAWERS) for part in SECTIONS.get(name, ("",))]
+PANELS = [
+    (name, part)
+    for name in ("explore", "optimise", "actuate", *DRAWERS)
+    for part in SECTIONS.get(name, ("",))
+]
 READ = """name => {
     const seen = e => e.checkVisibility({visibilityProperty: true}) && e.getClientRects().length > 0;
     const drawer = document.querySelector('[data-explorer=drawer]')?.closest('[data-dock-group]');
@@ -155,7 +159,9 @@ def readings(
 
 
 @pytest.mark.parametrize("panel", PANELS, ids=lambda panel: "-".join(filter(None, panel)))
-def test_a_panel_opened_again_is_whole(readings: tuple[Readings, Readings, Readings, Readings], panel: tuple[str, str]):
+def test_a_panel_opened_again_is_whole(
+    readings: tuple[Readings, Readings, Readings, Readings], panel: tuple[str, str]
+):
     before, back, after, new = (all_[panel] for all_ in readings)
     assert len(before) > 3
     assert back == before

@@ -74,7 +74,9 @@ def run_of(session: Session) -> Any:
 
 
 @pytest.mark.slow
-def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tuple[Watched, Session]):
+def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(
+    page: tuple[Watched, Session],
+):
     watched, session = page
     before, blade = watched.text("total-power"), watched.node("/rotor/blade_0")
     law = session.page.context.controls.inputs().law
@@ -92,10 +94,14 @@ def test_an_optimum_is_shown_applied_and_has_the_power_that_solve_gives(page: tu
     watched.until(lambda: watched.number("Inboard") == pytest.approx(shown.two_inner, abs=0.06))
     watched.mode("optimise")
     last = len(run.frames) - 1
-    watched.page.wait_for_function(f"() => document.body.innerText.includes('step {last} of {last}')")
+    watched.page.wait_for_function(
+        f"() => document.body.innerText.includes('step {last} of {last}')"
+    )
     press(watched, "Apply")
     watched.page.wait_for_function("() => RX.state.notice === null")
-    watched.until(lambda: session.page.context.controls.inputs().two_inner == pytest.approx(shown.two_inner))
+    watched.until(
+        lambda: session.page.context.controls.inputs().two_inner == pytest.approx(shown.two_inner)
+    )
     design = session.page.context.controls.inputs().design()
     assert session.page.context.controls.inputs().law == "two"
     power = solve(design).power.total
@@ -117,7 +123,9 @@ def test_the_search_is_beaten_by_hand_and_a_link_has_the_score(
     assert session.page.context.controls.inputs().law == "two"  # That of the search.
     watched.press("Outboard", "PageDown" if too_flat(session) else "PageUp", 1)
     watched.until(lambda: gap(said(watched, "more|less")) < gap(words))
-    copied = watched.page.evaluate_handle("() => { const said = []; RX.copy = text => said.push(text); return said; }")
+    copied = watched.page.evaluate_handle(
+        "() => { const said = []; RX.copy = text => said.push(text); return said; }"
+    )
     watched.page.locator("[data-do=game_link]").click()
     watched.until(lambda: copied.evaluate("said => said.length"))
     reached = session.page.optimise.hand.standing
@@ -125,19 +133,25 @@ def test_the_search_is_beaten_by_hand_and_a_link_has_the_score(
     other = opened(browser, copied.evaluate("said => said[0]"), size=(1280, 900), query="")
     try:
         score = f"{reached.best.power.total / 1e3:.0f}"
-        assert gap(said(other, f"^To beat {score} kW · Least with")) == pytest.approx(gap(words), abs=0.11)
+        assert gap(said(other, f"^To beat {score} kW · Least with")) == pytest.approx(
+            gap(words), abs=0.11
+        )
         other.press("Adv. ratio", "ArrowRight", 1)  # In another flight there is nothing to compare.
         other.page.wait_for_function("() => RX.state.notice === null")
         other.press("Adv. ratio", "ArrowLeft", 1)
         said(other, "more|less")
         other.page.locator("[data-do=game_take]").click()
-        other.page.wait_for_function("() => RX.state.notice === null && !location.search.includes('game=')")
+        other.page.wait_for_function(
+            "() => RX.state.notice === null && !location.search.includes('game=')"
+        )
         least = reached.least.power.total
         other.until(lambda: other.text("total-power").startswith(f"{least / 1e3:.0f}"))
     finally:
         other.close()
     press(watched, "End")
-    watched.page.wait_for_function("() => RX.state.notice === null && !location.search.includes('game=')")
+    watched.page.wait_for_function(
+        "() => RX.state.notice === null && !location.search.includes('game=')"
+    )
 
 
 def too_flat(session: Session) -> bool:
@@ -182,4 +196,6 @@ def test_a_map_says_its_least_power_is_clicked_and_is_begun_anew(page: tuple[Wat
     box = watched.box("[data-map]")
     assert place == pytest.approx((80.0 / box["width"], 1.0 - 60.0 / box["height"]), abs=0.01)
     press(watched, "Compute map")
-    watched.until(lambda: power_map.map is not first and not session.page.context.work["map"].under_way)
+    watched.until(
+        lambda: power_map.map is not first and not session.page.context.work["map"].under_way
+    )

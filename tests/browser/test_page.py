@@ -18,7 +18,9 @@ def kilowatts(text: str) -> float:
 def test_speed_is_dragged_by_its_dot_up_to_the_engines(watched: Watched):
     watched.answered(wholly=True)
     page, slider = watched.page, watched.row("Adv. ratio").get_by_role("slider")
-    page.wait_for_function("() => RX.state.strip[0].speeds && RX.state.strip[0].chart.rules?.length === 1")
+    page.wait_for_function(
+        "() => RX.state.strip[0].speeds && RX.state.strip[0].chart.rules?.length === 1"
+    )
 
     def mu() -> float:
         return float(slider.get_attribute("aria-valuenow") or "nan")
@@ -47,7 +49,9 @@ def test_a_press_is_not_lost_where_its_button_is_drawn_anew(watched: Watched):
     for _ in range(2):
         button.hover()
         page.mouse.down()
-        page.evaluate("() => { RX.again('field'); return new Promise(done => setTimeout(done, 100)); }")
+        page.evaluate(
+            "() => { RX.again('field'); return new Promise(done => setTimeout(done, 100)); }"
+        )
         page.mouse.up()
         before = watched.until_changed(lambda: button.get_attribute("aria-pressed"), before)
 
@@ -67,7 +71,8 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
     x, y = watched.thumb("Adv. ratio")
     watched.hold(x, y)
     seen_while_down, steps = 0, 0
-    while seen_while_down < 5 and steps < 1000:  # As long as a slow machine needs, but never letting go.
+    # As long as a slow machine needs, but never letting go.
+    while seen_while_down < 5 and steps < 1000:
         steps += 1
         page.mouse.move(x + steps % 30, y)
         page.wait_for_timeout(40)
@@ -83,7 +88,10 @@ def test_a_drag_is_live_and_ends_where_it_ends(watched: Watched):
 def test_a_switch_changes_the_power_and_the_page_says_so(watched: Watched):
     watched.type("Adv. ratio", 0.3)
     watched.answered()
-    before, flapping = watched.text("total-power"), watched.row("Flapping").locator("input[type=checkbox]")
+    before, flapping = (
+        watched.text("total-power"),
+        watched.row("Flapping").locator("input[type=checkbox]"),
+    )
     watched.page.get_by_text("Model", exact=True).click()
     flapping.click()
     watched.until(lambda: kilowatts(watched.text("total-power")) > kilowatts(before) + 30.0)

@@ -36,18 +36,28 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
     page.mouse.move(*_point(watched, r, psi))
     reading = page.locator("[data-reading]")
     reading.wait_for(state="visible")
-    shown = dict(zip(reading.locator("dt").all_inner_texts(), reading.locator("dd").all_inner_texts(), strict=True))
+    shown = dict(
+        zip(
+            reading.locator("dt").all_inner_texts(),
+            reading.locator("dd").all_inner_texts(),
+            strict=True,
+        )
+    )
     assert float(shown["α"].rstrip("°").replace("−", "-")) == pytest.approx(
         math.degrees(disk.alpha[row, column]), abs=0.2
     )
     assert float(shown["Mach"]) == pytest.approx(float(disk.mach[row, column]), abs=0.004)
-    assert float(shown["Cl"].replace("−", "-")) == pytest.approx(float(disk.cl[row, column]), abs=0.03)
+    assert float(shown["Cl"].replace("−", "-")) == pytest.approx(
+        float(disk.cl[row, column]), abs=0.03
+    )
     watched.reads("around", f"{r:.2f} R")
     # A click opens its section; the pointer was a fraction of a pixel beside it.
     page.mouse.down()
     page.mouse.up()
     page.wait_for_function(f"() => RX.state.bar.drawer === 'probe' && ({_READY})()")
-    fields = [watched.row(label).get_by_role("textbox") for label in ("Radius r/R", "Azimuth ψ [°]")]
+    fields = [
+        watched.row(label).get_by_role("textbox") for label in ("Radius r/R", "Azimuth ψ [°]")
+    ]
 
     def opened_at() -> tuple[float, float]:
         first, second = (float(field.input_value()) for field in fields)
@@ -55,7 +65,8 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
 
     watched.until(lambda: np.allclose(opened_at(), (r, psi), rtol=0.0, atol=(0.02, 2.0)))
     clicked = opened_at()
-    there = probe(solution, clicked[0], math.radians(clicked[1]))  # As the section says it, to the last digit.
+    # As the section says it, to the last digit.
+    there = probe(solution, clicked[0], math.radians(clicked[1]))
     said = number(math.degrees(there.alpha), 1), number(there.mach, 3), number(there.cl, 3)
     assert (shown["α"].rstrip("°"), shown["Mach"], shown["Cl"]) == said
     assert shown["Stall margin"].rstrip("°") == number(math.degrees(there.stall_margin or 0.0), 1)
@@ -68,7 +79,9 @@ def test_read_open_and_go_round_the_disk(browser: Browser, app: App):
     # Another design's values follow; and the scene comes back.
     before = page.evaluate("() => RX.state.plan.values.tables.cl.data")
     watched.press("Mass [t]", "ArrowRight", 5)
-    page.wait_for_function(f"before => ({_READY})() && RX.state.plan.values.tables.cl.data !== before", arg=before)
+    page.wait_for_function(
+        f"before => ({_READY})() && RX.state.plan.values.tables.cl.data !== before", arg=before
+    )
     page.get_by_role("button", name="Aircraft").click()
     page.wait_for_function("() => !document.documentElement.hasAttribute('data-plan')")
     assert watched.complaints == []
@@ -86,7 +99,8 @@ def test_one_press_shows_the_disk_without_stall(browser: Browser, app: App):
         page.wait_for_function(_READY)
         watched.until(lambda stalls=stalls: ("stall" in page.evaluate(regions)) == stalls)
         assert ("least margin" in page.locator(".rxf-around").inner_text()) == stalls
-        assert button.bounding_box()["x"] < page.locator(".rxf-views").bounding_box()["x"] / 2.0  # It stays in reach.
+        # It stays in reach.
+        assert button.bounding_box()["x"] < page.locator(".rxf-views").bounding_box()["x"] / 2.0
         button.click()
     assert watched.complaints == []
     watched.close()

@@ -30,12 +30,16 @@ ON_BLADE = "/rotor/blade_0/probe"
 
 
 def pose(watched: Watched, name: str) -> list[float]:
-    return watched.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].quaternion.toArray()", name)
+    return watched.page.evaluate(
+        "name => window.__viserMutable.nodeRefFromName[name].quaternion.toArray()", name
+    )
 
 
 def eye(watched: Watched) -> np.ndarray:
     """Where the camera is, in the axes of the rotor."""
-    x, y, z = watched.page.evaluate("() => window.__viserMutable.cameraControl.camera.position.toArray()")
+    x, y, z = watched.page.evaluate(
+        "() => window.__viserMutable.cameraControl.camera.position.toArray()"
+    )
     return np.array([-z, -x, y])  # three.js has y up; the session's world is turned against it.
 
 
@@ -47,7 +51,9 @@ def _cover(watched: Watched) -> Covered:
 
 def stands(watched: Watched, view: View) -> bool:
     """Whether the camera is where a view has it."""
-    aspect = watched.page.evaluate("() => (c => c.clientWidth / c.clientHeight)(document.querySelector('canvas'))")
+    aspect = watched.page.evaluate(
+        "() => (c => c.clientWidth / c.clientHeight)(document.querySelector('canvas'))"
+    )
     place, wanted = eye(watched), fit(view, RADIUS, aspect, cover=_cover(watched)).position
     away = np.linalg.norm(place) / np.linalg.norm(wanted) - 1.0
     return bool(abs(away) < 0.02 and np.isclose(place[2], wanted[2], rtol=0.03))
@@ -61,7 +67,10 @@ def click_disk(watched: Watched, r: float, psi_deg: float) -> tuple[float, float
     psi = math.radians(psi_deg)
     x, y = RADIUS * r * math.sin(psi), -RADIUS * r * math.cos(psi) + float(camera.look_at[0])
     depth = float(camera.position[2])
-    place = box["x"] + box["width"] / 2 + scale * x / depth, box["y"] + box["height"] / 2 - scale * y / depth
+    place = (
+        box["x"] + box["width"] / 2 + scale * x / depth,
+        box["y"] + box["height"] / 2 - scale * y / depth,
+    )
     watched.page.mouse.click(*place)
     return place
 
@@ -109,25 +118,36 @@ def test_arrow_keys_step_the_probe_and_leave_the_camera_alone(watched: Watched):
         page.keyboard.press(key)
         watched.until_changed(place, before)
     watched.until(lambda: watched.number("Radius r/R") == pytest.approx(r + 0.11, abs=1e-9))
-    watched.until(lambda: watched.number("Azimuth") == pytest.approx((psi + 1 - 10) % 360, abs=1e-9))
+    watched.until(
+        lambda: watched.number("Azimuth") == pytest.approx((psi + 1 - 10) % 360, abs=1e-9)
+    )
     np.testing.assert_allclose(eye(watched), camera, atol=1e-6)
 
 
 def test_sliders_step_finely_and_coarsely_and_their_number_follows(watched: Watched):
     page, row = watched.page, watched.row("Adv. ratio")
     slider, field = row.get_by_role("slider"), watched.field("Adv. ratio")
-    for key, change in (("ArrowRight", 0.005), ("Shift+ArrowLeft", -0.05), ("PageUp", 0.05), ("ArrowLeft", -0.005)):
+    for key, change in (
+        ("ArrowRight", 0.005),
+        ("Shift+ArrowLeft", -0.05),
+        ("PageUp", 0.05),
+        ("ArrowLeft", -0.005),
+    ):
         before = float(field.input_value())
         slider.focus()
         page.keyboard.press(key)
         wanted = round(min(max(before + change, 0.0), 0.45), 3)
         watched.until(lambda wanted=wanted: float(field.input_value()) == wanted)
-        watched.until(lambda wanted=wanted: float(slider.get_attribute("aria-valuenow") or "nan") == wanted)
+        watched.until(
+            lambda wanted=wanted: float(slider.get_attribute("aria-valuenow") or "nan") == wanted
+        )
     field.focus()
     typed = field.input_value()
     page.keyboard.press("ArrowUp")
     watched.until(lambda: field.input_value() != typed)
-    watched.until(lambda: float(slider.get_attribute("aria-valuenow") or "nan") == float(field.input_value()))
+    watched.until(
+        lambda: float(slider.get_attribute("aria-valuenow") or "nan") == float(field.input_value())
+    )
     page.keyboard.press("Escape")
     assert page.evaluate("() => document.activeElement.tagName") != "INPUT"
 
@@ -150,7 +170,9 @@ ON_MESH = """r => {
 
 
 @pytest.mark.parametrize("psi_deg", [60, 340])
-def test_a_click_on_the_blade_picks_the_section_that_is_clicked_and_keeps_the_azimuth(watched: Watched, psi_deg: int):
+def test_a_click_on_the_blade_picks_the_section_that_is_clicked_and_keeps_the_azimuth(
+    watched: Watched, psi_deg: int
+):
     page, hinge = watched.page, uh60a_rotor("flight").blade.flap_hinge * RADIUS
     page.keyboard.press("1")
     page.evaluate("psi => RX.send('azimuth', psi)", psi_deg)
@@ -158,9 +180,13 @@ def test_a_click_on_the_blade_picks_the_section_that_is_clicked_and_keeps_the_az
     for r in (0.98, 0.78, 0.54, 0.35):
         x, y, out = watched.at_rest(lambda r=r: page.evaluate(ON_MESH, r * RADIUS - hinge))
         page.mouse.move(x, y)
-        watched.until(lambda: page.evaluate("() => window.__viserMutable.canvas.style.cursor") == "grab")
+        watched.until(
+            lambda: page.evaluate("() => window.__viserMutable.canvas.style.cursor") == "grab"
+        )
         page.mouse.click(x, y)
-        watched.until(lambda out=out: abs(watched.number("Radius r/R") - (out + hinge) / RADIUS) <= 0.02)
+        watched.until(
+            lambda out=out: abs(watched.number("Radius r/R") - (out + hinge) / RADIUS) <= 0.02
+        )
         watched.answered()
         assert watched.number("Azimuth") == psi_deg
         assert watched.seen(ON_BLADE)
@@ -179,7 +205,9 @@ def test_a_double_click_beside_the_disk_brings_the_camera_back(watched: Watched)
     watched.until(lambda: np.allclose(eye(watched), before, atol=0.05))
 
 
-def test_a_double_click_on_a_slider_or_its_name_sets_the_default_and_can_be_undone(watched: Watched):
+def test_a_double_click_on_a_slider_or_its_name_sets_the_default_and_can_be_undone(
+    watched: Watched,
+):
     watched.reset()
     page, row = watched.page, watched.row("Adv. ratio")
     default = watched.number("Adv. ratio")
@@ -221,14 +249,16 @@ def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched)
     assert place[1] == pytest.approx(place[0] * RADIUS, rel=1e-3)
     first = card.locator("b").inner_text()
     watched.until_changed(lambda: card.locator("b").inner_text(), first)
-    watched.until(lambda: np.linalg.norm(eye(watched)) < 1.5 * RADIUS)  # Beside the blade; elsewhere it sees the disk.
+    # Beside the blade; elsewhere it sees the disk.
+    watched.until(lambda: np.linalg.norm(eye(watched)) < 1.5 * RADIUS)
     assert card.locator("circle").count() == 1
     page.keyboard.press("Escape")
     card.wait_for(state="hidden")
     page.wait_for_function("() => !RX.state.ride")
     watched.until(lambda: np.linalg.norm(eye(watched)) > 3.0 * RADIUS)
     after = watched.at_rest(lambda: eye(watched).round(2).tolist())
-    page.evaluate("() => RX.send('aim')")  # The drawer has closed meanwhile: it is aimed for the room there is now.
+    # The drawer has closed meanwhile: it is aimed for the room there is now.
+    page.evaluate("() => RX.send('aim')")
     watched.answered()
     assert watched.at_rest(lambda: eye(watched).round(2).tolist()) == pytest.approx(after, abs=0.1)
 
@@ -244,8 +274,12 @@ def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
     page.keyboard.press("Control+k")
     page.get_by_placeholder("Search commands").fill("hover")
     page.locator(".mantine-Spotlight-action", has_text="Hover").click()
-    page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText === 'hover'")
+    page.wait_for_function(
+        "() => document.querySelector('[data-explorer=speed]').innerText === 'hover'"
+    )
     page.locator("[class*=Spotlight-overlay]").wait_for(state="detached")
     watched.answered()
     page.keyboard.press("k")
-    page.wait_for_function("() => document.querySelector('[data-explorer=speed]').innerText.includes('191 km/h')")
+    page.wait_for_function(
+        "() => document.querySelector('[data-explorer=speed]').innerText.includes('191 km/h')"
+    )

@@ -32,7 +32,10 @@ class Proxy:
         self.cut_off = self.deaf = False
         self._target = urlsplit(address)
         self._open: set[asyncio.StreamWriter] = set()
-        self._begun, self._thread = threading.Event(), threading.Thread(target=lambda: asyncio.run(self._serve()))
+        self._begun, self._thread = (
+            threading.Event(),
+            threading.Thread(target=lambda: asyncio.run(self._serve())),
+        )
         self._thread.start()
         self._begun.wait()
 
@@ -50,7 +53,9 @@ class Proxy:
         if self.cut_off:
             writer.transport.abort()
             return
-        server_reader, server = await asyncio.open_connection(self._target.hostname, self._target.port)
+        server_reader, server = await asyncio.open_connection(
+            self._target.hostname, self._target.port
+        )
         self._open |= {writer, server}
         with suppress(OSError, asyncio.IncompleteReadError):
             head = await reader.readuntil(b"\r\n\r\n")
@@ -64,12 +69,16 @@ class Proxy:
                 if self._ended.is_set():
                     raise ConnectionError("the test is over")
             server.write(head)
-            await asyncio.gather(self._copy(reader, server, sent=True), self._copy(server_reader, writer))
+            await asyncio.gather(
+                self._copy(reader, server, sent=True), self._copy(server_reader, writer)
+            )
         for one in (writer, server):
             self._open.discard(one)
             one.close()
 
-    async def _copy(self, source: asyncio.StreamReader, to: asyncio.StreamWriter, sent: bool = False) -> None:
+    async def _copy(
+        self, source: asyncio.StreamReader, to: asyncio.StreamWriter, sent: bool = False
+    ) -> None:
         with suppress(OSError):
             while data := await source.read(2**16):
                 if not (sent and self.deaf):
@@ -123,7 +132,9 @@ def twisted(page: Page, proxy: Proxy) -> Page:
 
 
 @pytest.mark.parametrize("delay", [0.3, 1.6, 5.5])
-def test_connects_and_reconnects_however_long_the_handshake_takes(page: Page, proxy: Proxy, delay: float):
+def test_connects_and_reconnects_however_long_the_handshake_takes(
+    page: Page, proxy: Proxy, delay: float
+):
     """viser's client alone tries again every second, closing the socket that connects, and gives up after five."""
     proxy.delay = delay
     page.goto(proxy.address + COARSE)
@@ -155,7 +166,9 @@ def test_what_is_pressed_after_a_reconnect_is_held_back_or_answered(twisted: Pag
     page.wait_for_selector("#rx-gone", state="detached")
     page.evaluate("() => { RX.idle().then(() => { window.__idle = true; }); }")
     press = "document.querySelector('.rxf-modes [data-value=optimise]').click()"
-    page.wait_for_function(f"() => !document.documentElement.hasAttribute('data-held') && ({press}, true)")
+    page.wait_for_function(
+        f"() => !document.documentElement.hasAttribute('data-held') && ({press}, true)"
+    )
     page.wait_for_function("() => window.__idle")
     page.wait_for_function("() => RX.state.bar?.mode === 'optimise'")
     assert "-7.9" in page.url
@@ -198,7 +211,9 @@ def test_a_change_that_did_not_arrive_is_named(twisted: Page, proxy: Proxy):
     proxy.deaf = False
     proxy.cut(off=False)
     page.wait_for_selector("#rx-lost")
-    assert "Δ inboard [°/R] was -7.3, is -7.9. Set it again." in page.locator("#rx-lost").inner_text()
+    assert (
+        "Δ inboard [°/R] was -7.3, is -7.9. Set it again." in page.locator("#rx-lost").inner_text()
+    )
     page.mouse.click(5, 5)
     page.wait_for_selector("#rx-lost", state="detached")
 
@@ -235,7 +250,9 @@ def test_a_page_without_a_connection_does_not_go_on_solving(page: Page, proxy: P
     proxy.delay, proxy.deaf = (1e4, False) if way == "no WebSocket" else (0.0, True)
     page.goto(proxy.address + COARSE)
     card = "document.querySelector('[data-explorer=line]')?.textContent ?? ''"
-    page.wait_for_function(f"() => {{ const said = {card}; return said && !said.includes('Solving the first trim'); }}")
+    page.wait_for_function(
+        f"() => {{ const said = {card}; return said && !said.includes('Solving the first trim'); }}"
+    )
     if way == "no WebSocket":
         assert "The server does not answer" in page.inner_text("[data-explorer=line]")
 

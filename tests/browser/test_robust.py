@@ -51,7 +51,9 @@ def test_opens_whole_and_then_nothing_jumps(context: BrowserContext, app: App, a
         page.reload()
         page.wait_for_function(OPEN)
         page.wait_for_timeout(1500)
-        first_paint = page.evaluate("performance.getEntriesByName('first-contentful-paint')[0].startTime")
+        first_paint = page.evaluate(
+            "performance.getEntriesByName('first-contentful-paint')[0].startTime"
+        )
         seen = (first_paint, *page.evaluate("[window.__opened, window.__shift]"))
         painted, opened, shift = map(min, (painted, opened, shift), seen)
         if painted < 5_000 and opened < 15_000:
@@ -64,11 +66,14 @@ def test_opens_whole_and_then_nothing_jumps(context: BrowserContext, app: App, a
     assert shift < 0.02  # 0.1 counts as good; only the veil's own words may move.
     assert painted < 5_000  # The targets are 500 and 2000; machines that run tests are busy.
     assert opened < 15_000
-    assert sheets == len(web.STYLES)  # In the body itself: a panel that is folded away would take them along.
+    # In the body itself: a panel that is folded away would take them along.
+    assert sheets == len(web.STYLES)
 
 
 @pytest.mark.slow
-def test_a_full_server_seats_the_next_page_when_one_leaves(context: BrowserContext, artefacts: Path):
+def test_a_full_server_seats_the_next_page_when_one_leaves(
+    context: BrowserContext, artefacts: Path
+):
     app = App("127.0.0.1", 0, limits=ServerLimits(sessions=1))
     try:
         first, second = context.new_page(), context.new_page()

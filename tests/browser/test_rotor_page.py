@@ -39,7 +39,8 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     file = tmp_path / "mine.toml"
     file.write_text(text.replace("radius_m = 3.8354", "radius_m = -3.8"), encoding="utf-8")
     load(watched, file)
-    assert "radius_m is -3.8, outside" in watched.reads("upload", "outside")  # It stays in the drawer.
+    # It stays in the drawer.
+    assert "radius_m is -3.8, outside" in watched.reads("upload", "outside")
     note = watched.page.locator(".mantine-Notification-root", has_text="radius_m is -3.8, outside")
     assert note.evaluate("""one => {
         const {left, top, width, height} = one.getBoundingClientRect();
@@ -52,12 +53,19 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     load(watched, file)
     watched.reads("line", "^Mine of ")
     watched.until(lambda: watched.page.evaluate(BLADES) == 2)
-    watched.until(lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)")
-    file.write_text(text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.cor"\n', encoding="utf-8")
+    watched.until(
+        lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)"
+    )
+    file.write_text(
+        text.replace('"naca63a015"', '"own"') + '\n[sections.own]\ndeck = "own.cor"\n',
+        encoding="utf-8",
+    )
     load(watched, file)
     watched.page.wait_for_selector("text=mine.toml is loaded and needs own.cor: load that next.")
     deck = tmp_path / "own.cor"
-    deck.write_text(asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8"), encoding="utf-8")
+    deck.write_text(
+        asset_path("airfoils/naca0012.c81").read_text(encoding="utf-8"), encoding="utf-8"
+    )
     load(watched, deck)
     watched.drawer("trust")
     shown(watched, "provenance", "own")
@@ -73,7 +81,9 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     watched.drawer("trust")
     shown(watched, "provenance", "own")
     shown(watched, "total-power", power)
-    watched.until(lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)")
+    watched.until(
+        lambda: watched.page.locator(".rxf-rotor option:checked").inner_text() == "Mine (own)"
+    )
     other = watched.page.context.new_page()  # Of another window, which does not.
     other.goto(address)
     other.wait_for_selector("text=Its rotor is the sender's own and too large for a link")
@@ -100,7 +110,10 @@ def test_a_rotor_tested_alone_is_no_aircraft_and_its_taper_stays_in_its_card(wat
 def test_a_flown_rotor_draws_its_flights_and_a_press_sets_one(watched: Watched):
     watched.page.locator(".rxf-rotor").select_option(label="SA349/2 Gazelle")
     power = "RX.state.strip?.find(one => one.name === 'power')?.chart"
-    until(watched, f"() => {power}?.series.some(one => one.press?.length === 4 && one.words[1].includes('computed'))")
+    until(
+        watched,
+        f"() => {power}?.series.some(one => one.press?.length === 4 && one.words[1].includes('computed'))",
+    )
     watched.page.locator("[data-name=power] [data-value=FC2]").press("Enter")
     until(watched, f"() => {power}?.value.startsWith('FC2: ')")
     watched.until(lambda: "FC2" in watched.row("Point").locator("input").first.input_value())

@@ -59,8 +59,12 @@ AZIMUTH = """() => {
 def watched(shared: Watched) -> Iterator[Watched]:
     shared.reset()
     begun = [-14.0, -8.0, 0.5]
-    shared.until(lambda: [shared.number(label) for label in ("Inboard", "Outboard", "Break point")] == begun)
-    shared.at_rest(lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()"))
+    shared.until(
+        lambda: [shared.number(label) for label in ("Inboard", "Outboard", "Break point")] == begun
+    )
+    shared.at_rest(
+        lambda: shared.page.evaluate("() => window.__viserMutable.camera.position.toArray()")
+    )
     yield shared
     assert shared.complaints == []
 
@@ -99,7 +103,9 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     told = page.evaluate("() => RX.part('twisting').textContent")
     assert all(word in told for word in ("kW", "before ", "least "))
     assert page.evaluate("() => RX.state.hand.best.theta") < -2.0  # It began at −2°.
-    assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=1e-6)
+    assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(
+        camera, abs=1e-6
+    )
     page.mouse.up()
     page.wait_for_function("() => RX.state.hand === null && RX.state.twisting === null")
     page.wait_for_function("() => !document.documentElement.hasAttribute('data-twisting')")
@@ -107,7 +113,9 @@ def test_the_tip_follows_the_hand_and_one_undo_takes_it_back(watched: Watched):
     assert outer > -7.0
     assert watched.number("Inboard") == -14.0
     # Released, the camera follows the shaft tilt; an orbit would have moved it by metres.
-    assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(camera, abs=0.4)
+    assert page.evaluate("() => window.__viserMutable.camera.position.toArray()") == pytest.approx(
+        camera, abs=0.4
+    )
     page.evaluate("() => RX.send('undo', '')")
     watched.until_changed(lambda: watched.number("Outboard"), outer)
     assert watched.at_rest(lambda: watched.number("Outboard")) == -8.0
@@ -134,7 +142,9 @@ def test_twisting_by_key_and_escape_leaves_the_blade_as_it_was(watched: Watched)
 
 
 @pytest.mark.slow
-def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has_them(watched: Watched):
+def test_play_turns_the_blades_smoothly_and_they_come_to_rest_where_the_view_has_them(
+    watched: Watched,
+):
     page = watched.page
     still = page.evaluate(AZIMUTH)
     page.evaluate("() => RX.send('play', '')")
@@ -188,11 +198,17 @@ def test_disk_and_plan_have_the_colours_that_files_have(browser: Browser, app: A
     Not at 0.93 R, where the sweep of the tip begins and the Mach number jumps.
     """
     page = browser.new_page(viewport={"width": 900, "height": 744})
-    at = [(r * math.sin(psi), r * math.cos(psi)) for r in (0.45, 0.7, 0.9) for psi in np.radians([40, 100, 200, 320])]
+    at = [
+        (r * math.sin(psi), r * math.cos(psi))
+        for r in (0.45, 0.7, 0.9)
+        for psi in np.radians([40, 100, 200, 320])
+    ]
     try:
         watched = Watched(page)
         watched.open(app.address)
-        page.evaluate("() => ['stall', 'reverse_flow', 'drag_divergence'].forEach(mark => RX.send('region', mark))")
+        page.evaluate(
+            "() => ['stall', 'reverse_flow', 'drag_divergence'].forEach(mark => RX.send('region', mark))"
+        )
         watched.show("Mach number")
         watched.answered(wholly=True)
         seen = page.evaluate(PIXELS, at)

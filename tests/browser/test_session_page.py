@@ -64,7 +64,10 @@ def test_save_and_load(visit: Visit, tmp_path: Path):
     assert design.twist.spec() == "spline:9,6,0,-5@0.13,0.4,0.75,1"
     assert design.condition.advance_ratio == 0.1
     before, other = shown_kw(watched), tmp_path / "other.json"
-    other.write_text(json.dumps({**make_design(twist="linear:-6").to_dict(), "advance_ratio": 0.25}), encoding="utf-8")
+    other.write_text(
+        json.dumps({**make_design(twist="linear:-6").to_dict(), "advance_ratio": 0.25}),
+        encoding="utf-8",
+    )
     watched.drawer("open")
     watched.section("Files")
     file = page.get_by_role("button", name="Load design").locator("xpath=../input[@type='file']")

@@ -9,7 +9,8 @@ from playwright.sync_api import expect
 from watched import LARGE, ON_SCREEN, WAIT, Visit, Watched
 
 MEASURE, LEGIBLE = (
-    (Path(__file__).parent / f"{name}.js").read_text(encoding="utf-8") for name in ("overlaps", "legible")
+    (Path(__file__).parent / f"{name}.js").read_text(encoding="utf-8")
+    for name in ("overlaps", "legible")
 )
 CLEAN: dict[str, Any] = {
     **{name: [] for name in ("hit", "outside", "hidden", "nameless", "cut", "small", "faint")}, "wide": 0
@@ -48,7 +49,9 @@ TOTAL = "() => RX.state.line.pieces.find(piece => piece.part === 'total-power')?
 
 def found(watched: Watched) -> tuple[dict[str, Any], int]:
     """What is wrong once nothing is stale, and the width of the plan's disk [px]."""
-    watched.page.wait_for_function("() => !document.querySelector('[data-faded], [data-stale]')", timeout=4 * WAIT)
+    watched.page.wait_for_function(
+        "() => !document.querySelector('[data-faded], [data-stale]')", timeout=4 * WAIT
+    )
     look = f"() => ({{...({MEASURE})(), ...({LEGIBLE})()}})"
     now: dict[str, Any] = watched.at_rest(lambda: watched.page.evaluate(look))
     return {name: now[name] for name in CLEAN}, now["disk"] or 0
@@ -78,7 +81,9 @@ def test_nothing_lies_over_anything(visit: Visit, least: dict[tuple[int, int], i
     page.locator("[data-do=view][data-value='3d']").click()
     for mode in ("optimise", "actuate"):
         watched.mode(mode)
-        page.wait_for_function("() => document.documentElement.dataset.mode !== 'actuate' || RX.state.earns")
+        page.wait_for_function(
+            "() => document.documentElement.dataset.mode !== 'actuate' || RX.state.earns"
+        )
         clean(mode)
     for drawer in ("share", "lecture"):
         watched.drawer(drawer)
@@ -91,7 +96,10 @@ def test_the_chart_of_power_shows_the_bowl_and_all_of_it_on_demand(visit: Visit)
     first = watched.at_rest(lambda: page.evaluate(MEASURE))
     assert 15 < first["numbers"] <= MOST_NUMBERS
     assert 20 < first["controls"] <= MOST_CONTROLS
-    chart, button = page.locator("[data-name=power]"), page.locator("[data-name=power] [data-page=scale]")
+    chart, button = (
+        page.locator("[data-name=power]"),
+        page.locator("[data-name=power] [data-page=scale]"),
+    )
     page.wait_for_function("() => RX.state.strip?.[0].chart.y.whole?.range[1] >= 3000")
 
     def numbers() -> list[float]:
@@ -106,7 +114,10 @@ def test_the_chart_of_power_shows_the_bowl_and_all_of_it_on_demand(visit: Visit)
     page.keyboard.press("Enter")
     watched.until(lambda: numbers()[0] == 0.0)
     assert numbers()[-1] >= 3000.0
-    assert button.evaluate("button => button === document.activeElement && button.ariaPressed") == "true"
+    assert (
+        button.evaluate("button => button === document.activeElement && button.ariaPressed")
+        == "true"
+    )
     chart.locator("svg").dblclick(position={"x": 200, "y": 30})
     watched.until(lambda: numbers() == near)
 
@@ -115,9 +126,20 @@ def test_a_large_screen_has_large_type_charts_and_rail(visit: Visit):
     watched = visit(size=(2560, 1440))
     page = watched.page
     assert found(watched)[0] == CLEAN
-    assert page.locator(".rxf-chart > svg").first.evaluate("e => e.getBoundingClientRect().height") > 220.0
-    assert page.locator("[data-dock-region=right]").evaluate("e => e.getBoundingClientRect().width") > 480.0
-    assert page.evaluate("() => parseFloat(getComputedStyle(document.querySelector('.rxf-line')).fontSize)") > 24.0
+    assert (
+        page.locator(".rxf-chart > svg").first.evaluate("e => e.getBoundingClientRect().height")
+        > 220.0
+    )
+    assert (
+        page.locator("[data-dock-region=right]").evaluate("e => e.getBoundingClientRect().width")
+        > 480.0
+    )
+    assert (
+        page.evaluate(
+            "() => parseFloat(getComputedStyle(document.querySelector('.rxf-line')).fontSize)"
+        )
+        > 24.0
+    )
     # What is dragged in a drawing that has grown stays under the pointer.
     knot = "[data-knot]:last-of-type [data-reach]"
     x, y = watched.middle(knot)
@@ -150,10 +172,17 @@ def test_a_telephone_and_a_tablet_show_the_rotor(visit: Visit):
         for width, height in SMALL:
             page.set_viewport_size({"width": width, "height": height})
             for tab in ("controls", "charts"):
-                if page.locator(f".rxf-grip [data-page={tab}]").get_attribute("aria-expanded") == "false":
+                if (
+                    page.locator(f".rxf-grip [data-page={tab}]").get_attribute("aria-expanded")
+                    == "false"
+                ):
                     page.locator(f".rxf-grip [data-page={tab}]").click()
-                has_room(watched, "/lifted/skin" if mode == "actuate" else "/rotor/disk/field", height)
-            for card in (".rxf-fly", ".rxf-earns") if mode == "actuate" and min(width, height) > 480 else ():
+                has_room(
+                    watched, "/lifted/skin" if mode == "actuate" else "/rotor/disk/field", height
+                )
+            for card in (
+                (".rxf-fly", ".rxf-earns") if mode == "actuate" and min(width, height) > 480 else ()
+            ):
                 box = watched.box(card)
                 assert box["y"] + box["height"] <= height  # On a tablet the whole of both.
             assert page.evaluate("() => document.querySelector('canvas').clientWidth") >= width / 2
@@ -187,8 +216,13 @@ def held_by_a_finger(watched: Watched, size: tuple[int, int]) -> None:
     assert (shown, words) == (["plan", "twisting"], 0)
     assert (blade["width"], blade["height"]) == size  # Over the bar and the sheet.
     assert disk["height"] >= 0.4 * min(size)
-    touch.send("Input.dispatchTouchEvent", {"type": "touchStart", "touchPoints": [finger, {"x": 40, "y": 60, "id": 1}]})
-    page.wait_for_function("() => !RX.state.twisting && !document.documentElement.hasAttribute('data-twisting')")
+    touch.send(
+        "Input.dispatchTouchEvent",
+        {"type": "touchStart", "touchPoints": [finger, {"x": 40, "y": 60, "id": 1}]},
+    )
+    page.wait_for_function(
+        "() => !RX.state.twisting && !document.documentElement.hasAttribute('data-twisting')"
+    )
     touch.send("Input.dispatchTouchEvent", {"type": "touchEnd", "touchPoints": []})
     watched.answered()
     assert page.evaluate(TOTAL) == power
@@ -211,7 +245,11 @@ def test_a_ride_on_a_telephone_shows_blade_and_card(visit: Visit):
 
 def test_the_sheet_is_pulled_and_modes_bring_it(visit: Visit):
     watched = visit(size=(390, 844))
-    page, grip, tab = watched.page, watched.page.locator(".rxf-grip"), watched.page.locator("[data-page=controls]")
+    page, grip, tab = (
+        watched.page,
+        watched.page.locator(".rxf-grip"),
+        watched.page.locator("[data-page=controls]"),
+    )
     sheet = "() => innerHeight - document.querySelector('.rxf-grip').getBoundingClientRect().bottom"
     canvas = "() => document.querySelector('canvas').getBoundingClientRect().height"
     box = watched.box(grip)
@@ -221,7 +259,8 @@ def test_the_sheet_is_pulled_and_modes_bring_it(visit: Visit):
     page.mouse.move(x, y - 120, steps=4)
     pulled = pytest.approx(half + 120, abs=3)
     watched.until(lambda: page.evaluate(sheet) == pulled)
-    assert page.evaluate(canvas) == pytest.approx(high, abs=1)  # Of another size only once it is let go.
+    # Of another size only once it is let go.
+    assert page.evaluate(canvas) == pytest.approx(high, abs=1)
     page.mouse.up()
     page.wait_for_function(f"high => ({canvas})() < high - 100", arg=high)
     expect(tab).to_have_attribute("aria-expanded", "true")
@@ -236,7 +275,9 @@ def test_the_sheet_is_pulled_and_modes_bring_it(visit: Visit):
 def test_on_a_tablet_optimise_shows_its_controls_and_its_search(visit: Visit):
     watched = visit(size=(820, 1180))
     watched.mode("optimise")
-    begin = watched.page.locator("[data-dock-region=right]").get_by_role("button", name="Optimise", exact=True)
+    begin = watched.page.locator("[data-dock-region=right]").get_by_role(
+        "button", name="Optimise", exact=True
+    )
     begin.click()
     watched.page.locator("[data-explorer=notice]").wait_for(state="visible")
     assert found(watched)[0] == CLEAN
@@ -249,7 +290,10 @@ def test_what_is_measured_can_fail(visit: Visit):
         (".rxf-views", "inset: -20px auto auto 20px !important"),
         (".rxf-grip button", "min-height: 20px !important; height: 20px; align-self: start"),
     ):
-        page.evaluate("([name, style]) => { document.querySelector(name).style.cssText = style; }", [name, style])
+        page.evaluate(
+            "([name, style]) => { document.querySelector(name).style.cssText = style; }",
+            [name, style],
+        )
     now = page.evaluate(MEASURE)
     assert "line × views" in now["hit"]
     assert [name for name in now["narrow"] if name.endswith("×20")]

@@ -54,7 +54,9 @@ def test_no_edit_is_lost_to_one_that_follows_at_once(watched: Watched, app: App)
 
     before = held()
     for _ in range(2):
-        watched.page.evaluate("boxes => boxes.forEach(box => box.click())", [box.element_handle() for box in boxes])
+        watched.page.evaluate(
+            "boxes => boxes.forEach(box => box.click())", [box.element_handle() for box in boxes]
+        )
         watched.answered()
         before = [not one for one in before]
         assert held() == before == [box.is_checked() for box in boxes]
@@ -181,7 +183,9 @@ def test_a_hidden_tab_computes_nothing_until_it_is_seen(watched: Watched, app: A
 
 def test_a_language_that_is_none_leaves_the_page_its_controls(browser: Browser, app: App):
     """WebKitGTK's C."""
-    unnamed = "Object.defineProperties(navigator, {language: {value: 'C'}, languages: {value: ['C']}})"
+    unnamed = (
+        "Object.defineProperties(navigator, {language: {value: 'C'}, languages: {value: ['C']}})"
+    )
     page = browser.new_page()
     try:
         for script in (DRAW_NOTHING, unnamed.replace("value:", "configurable: true, value:")):

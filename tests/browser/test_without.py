@@ -37,7 +37,9 @@ def plan_is_drawn(page: Page) -> bool:
 
 
 @pytest.mark.parametrize("size", [(1280, 720), (390, 844)])
-def test_without_webgl_all_but_the_scene_works(browser: Browser, chromium_path: str, app: App, size: tuple[int, int]):
+def test_without_webgl_all_but_the_scene_works(
+    browser: Browser, chromium_path: str, app: App, size: tuple[int, int]
+):
     arguments = [*LAUNCH_ARGUMENTS, "--disable-3d-apis"]
     poor = browser.browser_type.launch(executable_path=chromium_path, args=arguments)
     try:
@@ -98,7 +100,9 @@ def test_where_nothing_is_stored_the_page_works_and_says_what_is_lost(browser: B
 
 def test_touch_and_forced_colours_leave_each_control_usable(browser: Browser, app: App):
     """At the size of a desktop: a narrow window has other rules."""
-    context = browser.new_context(viewport={"width": 1280, "height": 800}, has_touch=True, forced_colors="active")
+    context = browser.new_context(
+        viewport={"width": 1280, "height": 800}, has_touch=True, forced_colors="active"
+    )
     context.add_init_script(DRAW_NOTHING)
     watched = Watched(context.new_page())
     watched.open(app.address)
@@ -109,7 +113,8 @@ def test_touch_and_forced_colours_leave_each_control_usable(browser: Browser, ap
     assert all(height >= 44 for height in watched.page.evaluate(heights))
     colours = "name => [...document.querySelectorAll(name)].map(one => getComputedStyle(one).backgroundColor)"
     modes, parts = (
-        watched.page.evaluate(colours, name) for name in (".rxf-modes button", ".rxf-parts > div:first-child > *")
+        watched.page.evaluate(colours, name)
+        for name in (".rxf-modes button", ".rxf-parts > div:first-child > *")
     )
     assert modes[0] not in modes[1:]
     assert len(set(parts)) > 3

@@ -15,7 +15,9 @@ COARSE = "?fixedDpr=0.5"
 """Half as many pixels each way, for tests that read no picture."""
 OPEN = """() => document.querySelector('[data-explorer=status]')?.dataset.kind === 'converged'
     && !document.documentElement.classList.contains('rx-veiled')"""
-_DRAWN = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
+_DRAWN = (
+    "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
+)
 
 
 ON_SCREEN = """r => {
@@ -66,7 +68,9 @@ class Watched:
 
     def seen(self, node: str) -> bool:
         """Whether a node of the scene is visible."""
-        return self.page.evaluate("name => window.__viserMutable.nodeRefFromName[name].visible", node)
+        return self.page.evaluate(
+            "name => window.__viserMutable.nodeRefFromName[name].visible", node
+        )
 
     def hold(self, x: float, y: float) -> None:
         self.page.mouse.move(x, y)
@@ -82,7 +86,9 @@ class Watched:
         if label == "Limit stall" and not self.row(label).is_visible():
             self.page.get_by_text("Limits", exact=True).click()
             self.row(label).wait_for()
-        if label.startswith(("Altitude", "ISA offset", "Climb", "Rotor speed", "Load factor", "Flight or test")):
+        if label.startswith(
+            ("Altitude", "ISA offset", "Climb", "Rotor speed", "Load factor", "Flight or test")
+        ):
             self.page.evaluate("() => RX.send('more', 'on')")
             self.row(label).wait_for()
 
@@ -123,9 +129,11 @@ class Watched:
 
     def grab_tip(self) -> tuple[float, float]:
         """Press on the reference blade near its tip and begin to pull it down; the pixel of the press."""
-        x, y = self.at_rest(lambda: self.page.evaluate(ON_SCREEN, 7.2))  # The camera goes where the cards leave room.
+        # The camera goes where the cards leave room.
+        x, y = self.at_rest(lambda: self.page.evaluate(ON_SCREEN, 7.2))
         self.page.mouse.move(x, y)
-        self.page.wait_for_function("() => window.__viserMutable.canvas.style.cursor === 'grab'")  # viser has seen it.
+        # viser has seen it.
+        self.page.wait_for_function("() => window.__viserMutable.canvas.style.cursor === 'grab'")
         self.page.mouse.down()
         self.page.mouse.move(x, y + 12, steps=4)
         self.page.wait_for_function("() => RX.state.twisting")
@@ -251,7 +259,11 @@ def window(browser: Browser, scheme: Any = None) -> BrowserContext:
 
 
 def opened(
-    browser: Browser, address: str, query: str = COARSE, size: tuple[int, int] = SMALL, scheme: Any = None
+    browser: Browser,
+    address: str,
+    query: str = COARSE,
+    size: tuple[int, int] = SMALL,
+    scheme: Any = None,
 ) -> Watched:
     """A page in which nothing is painted."""
     watched = Watched(window(browser, scheme).new_page())

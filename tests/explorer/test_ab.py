@@ -88,7 +88,9 @@ class TestButtons:
         assert title_words(driven.design) == "UH-60A · linear −8\u00a0°/R + MFC P1 at 750 V"
         flown = pinned.design(b.design)  # With its own actuator, and without the other's.
         assert flown.condition.mass == pytest.approx(b.design.condition.mass + 132.1, abs=0.1)
-        assert Pinned(A_INPUTS, a).design(driven.design).condition.mass == pytest.approx(a.design.condition.mass)
+        assert Pinned(A_INPUTS, a).design(driven.design).condition.mass == pytest.approx(
+            a.design.condition.mass
+        )
         assert "actuator" in apply_order("back", pinned, B_INPUTS, b, True).sentence
 
     def test_the_overlay_is_that_of_a_search_before_that_of_a(self, a: Solution, b: Solution):
@@ -130,7 +132,9 @@ class TestPinboard:
         back = board.solve(a.design)
         assert back.converged
 
-    def test_what_follows_a_swap_waits_until_the_sliders_have_moved(self, board: Pinboard, a: Solution, b: Solution):
+    def test_what_follows_a_swap_waits_until_the_sliders_have_moved(
+        self, board: Pinboard, a: Solution, b: Solution
+    ):
         board.ask("swap")
         board.ask("unpin")
         outcome = board.act(B_INPUTS, b)
@@ -161,7 +165,9 @@ class TestReadOut:
             assert_allclose(shown[:2], [one, other], atol=0.51)
             assert_allclose(shown[2], other - one, atol=0.051)
             apart += shown[2]
-        assert_allclose(value(cells(html, "Total")[3]), apart + value(cells(html, "Parasite")[3]), atol=0.21)
+        assert_allclose(
+            value(cells(html, "Total")[3]), apart + value(cells(html, "Parasite")[3]), atol=0.21
+        )
         assert cells(html, "Parasite")[3:] == ["0.0", ""]  # The same airframe at the same speed.
         band = doubt(b, along)
         banded = readout.compared_power_panel(b, along, SI, band)
@@ -180,7 +186,9 @@ class TestReadOut:
         assert "–" in readout.compared_trim_panel(b, lost)
         assert "A: Not trimmed: too heavy." in status_panel(b, pinned=lost)
 
-    def test_cautions_say_whose_they_are_and_what_else_differs(self, a: Solution, along: Solution, b: Solution):
+    def test_cautions_say_whose_they_are_and_what_else_differs(
+        self, a: Solution, along: Solution, b: Solution
+    ):
         stall, mach = Caveat("stall", "Stalled."), Caveat("mach", "Fast.")
         noted = cautions(with_caveats(b, stall, mach), with_caveats(along, stall))
         assert noted == ["Stalled.", "B: Fast."]
@@ -211,7 +219,9 @@ class TestDisk:
         )
         assert_allclose(fine_apart, coarse_apart, atol=1e-3)
 
-    def test_void_beyond_the_shorter_blade_and_in_either_reverse_flow(self, along: Solution, b: Solution):
+    def test_void_beyond_the_shorter_blade_and_in_either_reverse_flow(
+        self, along: Solution, b: Solution
+    ):
         rotor = along.design.rotor
         blade = replace(rotor.blade, root_cutout=0.3)
         short = solve(replace(along.design, rotor=replace(rotor, blade=blade)))
@@ -219,7 +229,9 @@ class TestDisk:
         void = difference(FIELDS["Mach number"], short).void(DrawnSolution(b), grid)
         assert void[grid.r < 0.299].all()
         assert not void[grid.r > 0.301].any()
-        slow = solve(replace(along.design, condition=replace(along.design.condition, advance_ratio=0.1)))
+        slow = solve(
+            replace(along.design, condition=replace(along.design.condition, advance_ratio=0.1))
+        )
         alpha = difference(FIELDS["Angle of attack"], slow).void(DrawnSolution(b), grid)
         other_way = difference(FIELDS["Angle of attack"], b).void(DrawnSolution(slow), grid)
         assert alpha.any()
@@ -227,13 +239,18 @@ class TestDisk:
 
     def test_without_a_trim_of_a_all_is_void(self, lost: Solution, b: Solution):
         field = difference(FIELDS["Thrust dT/dr"], lost)
-        image = np.array(Image.open(io.BytesIO(disk_png(b, field, (field.low, field.high)))).convert("RGBA"))
+        image = np.array(
+            Image.open(io.BytesIO(disk_png(b, field, (field.low, field.high)))).convert("RGBA")
+        )
         assert tuple(image[len(image) // 4, len(image) // 2, :3]) == VOID
         assert fitted_range(field, field_values(b, field)) == (field.low, field.high)
 
 
 def test_a_pinned_design_of_the_document_stays_level_beside_a_climb():
-    level = replace(make_design(preset="thesis"), models=replace(make_design(preset="thesis").models, elements=20))
+    level = replace(
+        make_design(preset="thesis"),
+        models=replace(make_design(preset="thesis").models, elements=20),
+    )
     pinned = Pinned(Inputs(preset="thesis"), solve(level).require())
     climbing = make_design(climb_m_s=5.0, mu=0.25)
     moved = pinned.design(climbing)

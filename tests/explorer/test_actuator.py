@@ -74,13 +74,21 @@ def test_full_voltage_makes_the_twist_that_the_range_gives():
 
 
 SOFT = ActuatorInputs(
-    concept="three-segment", drives=(10.0, 20.0, 30.0, 0.0, 0.0), blade="new", stiffness=0.7, crossed=True
+    concept="three-segment",
+    drives=(10.0, 20.0, 30.0, 0.0, 0.0),
+    blade="new",
+    stiffness=0.7,
+    crossed=True,
 )
 
 
 @pytest.mark.parametrize("inputs", [Inputs(law="builtin", built_inner=2.0), Inputs(law="two")])
-@pytest.mark.parametrize("actuator", [ActuatorInputs(drives=(77.0,) * 5), SOFT, ActuatorInputs("SMA_tube", 3)])
-def test_a_design_file_and_a_link_give_back_sliders_and_actuator(inputs: Inputs, actuator: ActuatorInputs):
+@pytest.mark.parametrize(
+    "actuator", [ActuatorInputs(drives=(77.0,) * 5), SOFT, ActuatorInputs("SMA_tube", 3)]
+)
+def test_a_design_file_and_a_link_give_back_sliders_and_actuator(
+    inputs: Inputs, actuator: ActuatorInputs
+):
     design = actuator.apply(inputs.design())
     read = design_from_record(json.loads(json.dumps(design.to_dict())))
     assert within(inputs_of(read)) == inputs
@@ -96,7 +104,9 @@ def test_laid_the_other_way_it_turns_the_other_way():
     assert_allclose(ActuatorInputs(drives=FULL, crossed=True).change(installed, 1.0), -there)
     tube = ActuatorInputs(actuator="SMA_tube", drives=FULL)
     installed = tube.installed(DESIGN.rotor)  # Laid the other way, and driven from zero only.
-    assert_allclose(replace(tube, crossed=True).change(installed, 1.0), -tube.change(installed, 1.0))
+    assert_allclose(
+        replace(tube, crossed=True).change(installed, 1.0), -tube.change(installed, 1.0)
+    )
     assert replace(tube, crossed=True).reach(installed) == (-tube.reach(installed)[1], 0.0)
     assert (tube.least_drive, ActuatorInputs().least_drive) == (0.0, -100.0)
 
@@ -113,7 +123,9 @@ def test_each_blade_is_drawn_with_the_twist_of_its_azimuth():
     rigid = replace(DESIGN, models=replace(DESIGN.models, elastic_twist=False))
     wave = linear_active_twist(read_harmonics("1:2:0", "test"), rigid.rotor.blade.root_cutout)
     still, turning = (solve(replace(rigid, active_twist=twist)) for twist in (None, wave))
-    same, forms = (make_picture(solution, ViewState()).blades.forms for solution in (still, turning))
+    same, forms = (
+        make_picture(solution, ViewState()).blades.forms for solution in (still, turning)
+    )
     assert [len(same), len(forms)] == [1, DESIGN.rotor.blades]
     shapes = [form.vertices(blade_shape(DESIGN.rotor)) for form in forms]
     middle = 0.5 * (shapes[0] + shapes[2])  # Opposite blades at 1/rev move against each other.
@@ -162,7 +174,9 @@ def test_plies_stand_outside_the_true_contour_where_they_are_placed():
         assert (np.where(upper, away, -away) > 0.0).all()
     skin = next(part for part in blade.parts if part.role == "skin")
     chord = float(DESIGN.rotor.blade.chord(0.5))
-    assert_allclose(skin.outer[0, [0, skin.outer.shape[1] // 2], 0], (-0.75 * chord, 0.25 * chord), rtol=1e-6)
+    assert_allclose(
+        skin.outer[0, [0, skin.outer.shape[1] // 2], 0], (-0.75 * chord, 0.25 * chord), rtol=1e-6
+    )
 
 
 def test_voltage_turns_the_tip_of_the_lifted_blade_nose_up():
@@ -172,11 +186,14 @@ def test_voltage_turns_the_tip_of_the_lifted_blade_nose_up():
     rest, driven = (lifted_picture(each, installed, DESIGN) for each in (ActuatorInputs(), inputs))
     angles = []
     for picture in (rest, driven):
-        ring = picture.lines["edges"][-38:, 0]  # The tip section, from its trailing edge over the nose.
+        # The tip section, from its trailing edge over the nose.
+        ring = picture.lines["edges"][-38:, 0]
         nose, tail = ring[19], ring[0]
         angles.append(math.atan2(nose[2] - tail[2], nose[1] - tail[1]))
     assert_allclose(
-        angles[1] - angles[0], TWIST_EXAGGERATION * float(inputs.change(installed, 1.0)), atol=math.radians(0.3)
+        angles[1] - angles[0],
+        TWIST_EXAGGERATION * float(inputs.change(installed, 1.0)),
+        atol=math.radians(0.3),
     )
     assert len(rest.lines["overlay"]) == len(rest.lines["arrow"]) == 0
     assert len(driven.lines["overlay"]) > 0
@@ -232,7 +249,8 @@ def test_the_chosen_actuator_is_judged_first_and_then_all_others():
     assert next(iter(tasks)) == "extension_twist"
     assert sorted(tasks) == sorted(ALL)
     unknown = replace(question, actuator="unobtainium")
-    assert "use one of" in verdict_tasks(unknown)["unobtainium"].run()  # What cannot be judged is a sentence.
+    # What cannot be judged is a sentence.
+    assert "use one of" in verdict_tasks(unknown)["unobtainium"].run()
 
 
 def test_the_newest_tasks_are_answered_one_at_a_time_and_serve_every_page():
@@ -253,7 +271,11 @@ def test_the_newest_tasks_are_answered_one_at_a_time_and_serve_every_page():
     until(lambda: pool.asked[-1] == second)
     pool.end("two")
     assert (answers.answer(newest), answers.answer(second)) == ("The process ended.", "two")
-    assert (heard, answers.is_waiting()) == ([True] * 3, False)  # Until an answer is told, it is owed.
+    # Until an answer is told, it is owed.
+    assert (heard, answers.is_waiting()) == (
+        [True] * 3,
+        False,
+    )
     assert PoolAnswers(fake, 5, lambda: None).answer(first) == "one"
     answers.ask((asked("never ends"),), 0.0)
     until(lambda: pool.asked[-1] == asked("never ends"))
@@ -324,11 +346,18 @@ def test_the_lifted_blade_is_drawn_as_flown():
     assert flown.moved[0] == 0.0
     assert driven.disk.elastic_twist is not None
     at = int(np.abs(driven.disk.psi - 0.5).argmin())
-    pitch = driven.disk.theta[:, at] - rest.disk.theta[:, at]  # Collective and cyclic move every station alike.
+    # Collective and cyclic move every station alike.
+    pitch = driven.disk.theta[:, at] - rest.disk.theta[:, at]
     assert_allclose(flown.moved, pitch - pitch[0], atol=math.radians(0.03))
     installed = inputs.installed(DESIGN.rotor)
-    labels = [text for kind, text, _ in lifted_picture(inputs, installed, DESIGN, flown).labels if kind == "tip"]
-    assert labels == [f"{math.degrees(inputs.tip(installed)):+.2f}° at the tip, drawn × {TWIST_EXAGGERATION:g}"]
+    labels = [
+        text
+        for kind, text, _ in lifted_picture(inputs, installed, DESIGN, flown).labels
+        if kind == "tip"
+    ]
+    assert labels == [
+        f"{math.degrees(inputs.tip(installed)):+.2f}° at the tip, drawn × {TWIST_EXAGGERATION:g}"
+    ]
     rigid = make_design(preset="thesis", mu=0.2)
     assert flown_twist(solve(rigid), solve(rigid), 0.5) is None
 
@@ -338,7 +367,11 @@ def test_a_lean_verdict_tells_the_same(verdict: Verdict):
     small = lean_verdict(verdict_inputs_of(ActuatorInputs(), DESIGN))
     assert len(pickle.dumps(small)) < min(40_000, 0.06 * len(pickle.dumps(verdict)))
     page = [
-        (actuator_words.fit_panel(one.installed, one), actuator_words.limits_panel(one), balance(one.savings, SI))
+        (
+            actuator_words.fit_panel(one.installed, one),
+            actuator_words.limits_panel(one),
+            balance(one.savings, SI),
+        )
         for one in (verdict, small)
     ]
     assert page[0] == page[1]
@@ -386,7 +419,11 @@ def test_where_there_is_no_such_design_the_sentence_stands_alone():
     [
         (ActuatorInputs(concept="three-segment", blade="new"), "Voltage 2 [%]", {"drive 3"}),
         (ActuatorInputs(actuator="SMA_tube"), "Drive [%]", {"chord", "stiffness"}),
-        (ActuatorInputs(actuator="extension_twist"), "Drive [%]", {"plies", "span", "chord", "stiffness"}),
+        (
+            ActuatorInputs(actuator="extension_twist"),
+            "Drive [%]",
+            {"plies", "span", "chord", "stiffness"},
+        ),
     ],
 )
 def test_the_form_has_what_the_actuator_has(actuator: ActuatorInputs, label: str, hidden: set[str]):

@@ -99,7 +99,9 @@ def answered(
     doubts = {task.key: at_once(task.run(lambda: None)) for task in works(now)}
     now = replace(now, answers={**now.answers, **doubts})
     flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)
-    return replace(now, answers=told(FLIGHT, flown, powers=run(asked(FLIGHT, flown)["powers"])).answers)
+    return replace(
+        now, answers=told(FLIGHT, flown, powers=run(asked(FLIGHT, flown)["powers"])).answers
+    )
 
 
 def card(now: PageState) -> AssessedPart:
@@ -117,7 +119,9 @@ def known(now: PageState) -> tuple[ActuatedBlade, Verdict]:
 
 def balance_here(now: PageState) -> dict[str, str]:
     """Each part of the power in this flight, as written."""
-    part = FLIGHT.view(replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand))["earns"]
+    part = FLIGHT.view(replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand))[
+        "earns"
+    ]
     assert (part.kind, part.here, part.where) == ("ready", True, "at 159 km/h")
     return {bar.name: bar.text for bar in part.bars}
 
@@ -131,13 +135,26 @@ def screen(now: PageState) -> dict[str, list[str]]:
         assert matches, (quantity, pattern, text)
         found[quantity] += [one if isinstance(one, str) else "…".join(one) for one in matches]
 
-    (value, verdict), part, flight, rail = known(now), card(now), FLIGHT.view(now), ACTUATOR.view(now)
-    words = " ".join(text for _, text, _ in lifted_picture(now.hand.actuator, value.installed, value.design).labels)
+    (value, verdict), part, flight, rail = (
+        known(now),
+        card(now),
+        FLIGHT.view(now),
+        ACTUATOR.view(now),
+    )
+    words = " ".join(
+        text
+        for _, text, _ in lifted_picture(now.hand.actuator, value.installed, value.design).labels
+    )
     report = re.sub(r"<[^>]*>", " ", actuator_section(verdict, SI))
     (total,) = [bar.text for bar in flight["earns"].bars if bar.total]
 
-    found["mass"] = [part.mass.removesuffix(" kg"), f"{sum(float(mass) for _, mass in part.masses):.0f}"]
-    found["mass"].append(f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}")
+    found["mass"] = [
+        part.mass.removesuffix(" kg"),
+        f"{sum(float(mass) for _, mass in part.masses):.0f}",
+    ]
+    found["mass"].append(
+        f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}"
+    )
     read("mass", "# kg:", rail["actuator.numbers"])
     read("mass", "^# kg on board", part.sentence)
     read("mass", "# kg:", report)
@@ -178,9 +195,17 @@ def screen(now: PageState) -> dict[str, list[str]]:
     carried = design.rotor.blade.carried
     assert carried is not None
     exported = {
-        "CSV": float(re.findall(r"total power ([\d.]+) kW", "\n".join(provenance_lines(now.state.solution)))[0]),
-        "link": 1e-3 * trimmed(with_actuator(design_from(code_of(now.inputs.design())), carried.spec)).power.total,
-        "design file": 1e-3 * trimmed(design_from_record(json.loads(json.dumps(design.to_dict())))).power.total,
+        "CSV": float(
+            re.findall(r"total power ([\d.]+) kW", "\n".join(provenance_lines(now.state.solution)))[
+                0
+            ]
+        ),
+        "link": 1e-3
+        * trimmed(
+            with_actuator(design_from(code_of(now.inputs.design())), carried.spec)
+        ).power.total,
+        "design file": 1e-3
+        * trimmed(design_from_record(json.loads(json.dumps(design.to_dict())))).power.total,
     }
     found["power"] += [f"{kilowatts:.0f}" for kilowatts in exported.values()]
     entries = ReportEntry("Blade", now.state.baseline), [ReportEntry("Now", now.state.solution)]
@@ -190,7 +215,11 @@ def screen(now: PageState) -> dict[str, list[str]]:
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
     for words in (*part.over, *part.required):
-        (name,) = [limit.name for limit in verdict.broken if words.startswith(f"{limit_words(limit.name)} ")]
+        (name,) = [
+            limit.name
+            for limit in verdict.broken
+            if words.startswith(f"{limit_words(limit.name)} ")
+        ]
         read(f"limit {name}", f"({NUMBER}) of (?:at least )?{NUMBER} ", words.replace("\u2009", ""))
     assert not {limit.split()[0] for limit in part.over} & {"voltage", "field"}
     return found
@@ -215,27 +244,38 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
         swing = fly(verdict, [FlightLeg("here", 0.2)]).swings[0][0]
         drive = float(round(100.0 * installed.actuator.share_of(swing)))
     flown = trimmed(with_actuator(DESIGN, f"{id},drive={drive}"))
-    blade = DESIGN if against == "same-blade" else replace(DESIGN, twist=verdict.baseline.fixed_twist)
+    blade = (
+        DESIGN if against == "same-blade" else replace(DESIGN, twist=verdict.baseline.fixed_twist)
+    )
     other = trimmed(blade)
     bent = [replace(one, models=replace(one.models, bending=True)) for one in (flown.design, blade)]
     index = run(Call(effect, tuple(bent))).index
     least = -1.0 if id in ("MFC_P1", "AFC") else 0.0  # A tube turns the tip one way.
-    ends = [installed.tip([installed.actuator.swing_at(end)] * len(installed.shapes)) for end in (least, 1.0)]
-    tip = math.degrees(installed.tip([installed.actuator.swing_at(0.01 * drive)] * len(installed.shapes)))
+    ends = [
+        installed.tip([installed.actuator.swing_at(end)] * len(installed.shapes))
+        for end in (least, 1.0)
+    ]
+    tip = math.degrees(
+        installed.tip([installed.actuator.swing_at(0.01 * drive)] * len(installed.shapes))
+    )
     fuel, within = verdict.fuel_saving, verdict.fuel_band
     assert fuel is not None
     assert within is not None
     found = {
         "mass": f"{installed.masses.aircraft:.0f}",
         "tip": f"{tip:+.2f}°" if drive else "0.00°",
-        "reach": "…".join(f"{math.degrees(end):+.2f}" if end else "0.00" for end in sorted(ends)) + "°",
+        "reach": "…".join(f"{math.degrees(end):+.2f}" if end else "0.00" for end in sorted(ends))
+        + "°",
         "range": f"{math.degrees(verdict.attainable):.1f}",
         "range in flight": f"{math.degrees(verdict.attainable):.2f}",
         "torsion": f"{installed.frequency:.2f}",
         "mass that pays": f"{(allowed := verdict.mass_allowed or 0.0):.{0 if allowed >= 10.0 or not allowed else 1}f}",
         "fuel": f"{3600.0 * abs(fuel):.{change_decimals(3600.0 * fuel, 3600.0 * within, 1)}f}",
         "stalled": f"{100.0 * flown.stalled_area:.1f}",
-        **{name: f"{1e-3 * getattr(flown.power, name):.0f}" for name in ("induced", "profile", "parasite", "tail")},
+        **{
+            name: f"{1e-3 * getattr(flown.power, name):.0f}"
+            for name in ("induced", "profile", "parasite", "tail")
+        },
         "power": f"{1e-3 * flown.power.total:.0f}",
         "power here": as_said(
             flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0),
@@ -261,7 +301,9 @@ SCREENS = (
 
 
 @pytest.mark.parametrize(("id", "against", "state", "drive"), SCREENS)
-def test_every_number_on_the_screen_is_that_of_rotor(id: str, against: Against, state: ActuatorState, drive: float):
+def test_every_number_on_the_screen_is_that_of_rotor(
+    id: str, against: Against, state: ActuatorState, drive: float
+):
     now = answered(against, (drive,) * MOST_SEGMENTS, state, id)
     found = screen(now)
     assert {name: set(values) for name, values in found.items()} == {
@@ -275,7 +317,9 @@ def test_every_number_on_the_screen_is_that_of_rotor(id: str, against: Against, 
     assert ("present blade" in parts) == (against == "best-fixed")
     than = "without it" if against == "same-blade" else "with the best fixed blade"
     states = {"set": "at", "schedule": "by schedule at", "stopped": "stopped at"}
-    assert re.search(rf" with {id.replace('_', ' ')} {states[state]} .* than {than}, ", line_text(now))
+    assert re.search(
+        rf" with {id.replace('_', ' ')} {states[state]} .* than {than}, ", line_text(now)
+    )
 
 
 def test_while_the_blade_is_out_only_what_is_seen_is_computed():
@@ -284,10 +328,14 @@ def test_while_the_blade_is_out_only_what_is_seen_is_computed():
     works = {work.name for panel in PANELS if panel.seen(now.ui) for work in panel.works(now)}
     assert works == {"doubt", "measured", "slopes", "still"}
     now = replace(now, ui=replace(now.ui, lifted=False))
-    assert {"flight-slopes", "waterfall"} < {w.name for p in PANELS if p.seen(now.ui) for w in p.works(now)}
+    assert {"flight-slopes", "waterfall"} < {
+        w.name for p in PANELS if p.seen(now.ui) for w in p.works(now)
+    }
     now = answered("same-blade", DRIVEN)
     last = {one.urgency for one in DIAL.asks(now)[1:]}
-    assert min(last) > max(one.urgency for one in (*ACTUATOR.asks(now)[:2], *ACTUATOR_CARD.asks(now)))
+    assert min(last) > max(
+        one.urgency for one in (*ACTUATOR.asks(now)[:2], *ACTUATOR_CARD.asks(now))
+    )
 
 
 def test_twist_at_n_per_rev_adds_the_same_to_card_dial_and_balance():
@@ -295,7 +343,8 @@ def test_twist_at_n_per_rev_adds_the_same_to_card_dial_and_balance():
     that the voltage leaves no room for is a limit exceeded."""
     waves = read_harmonics("3:0.75:60", "test")
     rest, run_at = (
-        answered("same-blade", DRIVEN, inputs=replace(INPUTS, twist_per_rev=twist)) for twist in ((), waves)
+        answered("same-blade", DRIVEN, inputs=replace(INPUTS, twist_per_rev=twist))
+        for twist in ((), waves)
     )
     before, after = known(rest)[0].here, known(run_at)[0].here
     dials = [DIAL.view(now)["dial"].settled for now in (rest, run_at)]
@@ -307,7 +356,10 @@ def test_twist_at_n_per_rev_adds_the_same_to_card_dial_and_balance():
     assert_allclose(dials[1].power[0], 1e-3 * _alone(waves), atol=2e-3)
     drive = [float(balance_here(now)["drive"].replace("−", "-")) for now in (rest, run_at)]
     assert drive[1] > drive[0]
-    assert (card(rest).over[-1][:5], card(run_at).over[-1]) == (card(rest).over[-1][:5], "twist at n/rev 0.75 of 0.30°")
+    assert (card(rest).over[-1][:5], card(run_at).over[-1]) == (
+        card(rest).over[-1][:5],
+        "twist at n/rev 0.75 of 0.30°",
+    )
     assert ", 3/rev 0.75°" in line_text(run_at)
     assert ", with 3/rev 0.75°" in ACTUATOR.view(run_at)["actuator.now"]
 
@@ -329,12 +381,16 @@ def _alone(waves: tuple[Harmonic, ...]) -> float:
 def test_the_switch_moves_every_change_by_what_lies_between_the_blades():
     """At no voltage, and against the same blade, only mass and stiffness change power and vibration."""
     same = answered("same-blade", (0.0,) * MOST_SEGMENTS)
-    (one, verdict), (other, counted) = (known(answered(against, (0.0,) * MOST_SEGMENTS)) for against in AGAINST)
+    (one, verdict), (other, counted) = (
+        known(answered(against, (0.0,) * MOST_SEGMENTS)) for against in AGAINST
+    )
     assert one.here and other.here and one.over_flight and other.over_flight and one.line  # noqa: PT018
     fixed = replace(DESIGN, twist=counted.baseline.fixed_twist)
     between = trimmed(DESIGN).power.total - trimmed(fixed).power.total
     assert other.here.power - one.here.power == pytest.approx(between, abs=1.0)
-    assert one.vibration and other.vibration and abs(one.vibration[0]) < 0.5 * abs(other.vibration[0])  # noqa: PT018
+    assert one.vibration
+    assert other.vibration
+    assert abs(one.vibration[0]) < 0.5 * abs(other.vibration[0])
     between = verdict.bare_power - counted.reference_power
     assert other.over_flight.power - one.over_flight.power == pytest.approx(between, abs=1.0)
     assert one.line.net(one.range, one.mass) == pytest.approx(-one.over_flight.power, abs=1.0)
@@ -360,7 +416,10 @@ def test_full_voltage_is_the_reach_and_trims_make_that_twist():
         inputs = ActuatorInputs(drives=(end,) * MOST_SEGMENTS)
         installed = inputs.installed(design.rotor)
         tips = []
-        for flown in (with_actuator(design, f"MFC_P1,drive={end}"), with_actuator(design, "MFC_P1")):
+        for flown in (
+            with_actuator(design, f"MFC_P1,drive={end}"),
+            with_actuator(design, "MFC_P1"),
+        ):
             trim = solve(flown)
             twist = trim.disk.elastic_twist.mean(axis=1) + trim.design.twist(trim.disk.r)
             tips.append(float(np.interp(1.0, trim.disk.r, twist) - twist[0]))
@@ -414,7 +473,9 @@ def check_bands(shown: Mapping[str, Any], *, sourced: bool) -> tuple[int, int]:
             words = " ".join(one for one in parts_of(part) if isinstance(one, str))
             assert "unclear" not in words, words
             between = [(size(low), size(high)) for _, low, high in _BETWEEN.findall(words)]
-            assert re.search(r"sure|likely|^drive", words) or any(low * high > 0.0 for low, high in between), words
+            assert re.search(r"sure|likely|^drive", words) or any(
+                low * high > 0.0 for low, high in between
+            ), words
     for value, band, word in texts:
         assert sureness(size(value), size(band), sourced=sourced) == word
     for value, low, high in ranges:
@@ -426,17 +487,35 @@ def check_bands(shown: Mapping[str, Any], *, sourced: bool) -> tuple[int, int]:
     if "moved" in pieces:
         assert (pieces["moved"].kind != "") == (word in ("sure", "likely"))
     if word:
-        assert sureness(size(pieces["moved"].text), size(pieces["sure-band"].text[3:]), sourced=sourced) == word
+        assert (
+            sureness(
+                size(pieces["moved"].text), size(pieces["sure-band"].text[3:]), sourced=sourced
+            )
+            == word
+        )
     return len(texts), len(ranges)
 
 
-@pytest.mark.parametrize(("id", "state"), [("MFC_P1", "schedule"), ("AFC", "set"), ("SMA_tube", "stopped")])
-def test_every_value_of_actuate_lies_inside_its_band_and_has_its_word_and_colour(id: str, state: ActuatorState):
+@pytest.mark.parametrize(
+    ("id", "state"), [("MFC_P1", "schedule"), ("AFC", "set"), ("SMA_tube", "stopped")]
+)
+def test_every_value_of_actuate_lies_inside_its_band_and_has_its_word_and_colour(
+    id: str, state: ActuatorState
+):
     waves = read_harmonics("3:0.5:60", "test") if id == "AFC" else ()
     now = answered("same-blade", DRIVEN, state, id, replace(INPUTS, twist_per_rev=waves))
     now = replace(now, hand=replace(now.hand, on_stage=True))
-    found = [check_bands({name: part for panel in PANELS for name, part in panel.view(now).items()}, sourced=False)]
-    found.append(check_bands(PAY.view(done(now, PAY.presses["suppose"](now, SupposePress(3.0, 20.0)))), sourced=False))
+    found = [
+        check_bands(
+            {name: part for panel in PANELS for name, part in panel.view(now).items()},
+            sourced=False,
+        )
+    ]
+    found.append(
+        check_bands(
+            PAY.view(done(now, PAY.presses["suppose"](now, SupposePress(3.0, 20.0)))), sourced=False
+        )
+    )
     assert found[0][0] >= 5
     assert found[1][0] >= 1
 
@@ -445,7 +524,12 @@ def test_every_value_of_actuate_lies_inside_its_band_and_has_its_word_and_colour
 def test_every_value_of_explore_lies_inside_its_band_and_has_its_word_and_colour(bends: bool):
     inputs = replace(INPUTS, built_outer=-6.0, bending=bends)
     solution, built = (trimmed(one.design()) for one in (inputs, replace(inputs, built_outer=0.0)))
-    now = PageState(inputs, None, SessionState(inputs, ViewState(), solution, built, None), ui=OpenPanels("explore"))
+    now = PageState(
+        inputs,
+        None,
+        SessionState(inputs, ViewState(), solution, built, None),
+        ui=OpenPanels("explore"),
+    )
     now = replace(now, sliders=inputs.design())
     for panel in (LINE, WORTH, VIBRATION) if bends else (LINE, WORTH):
         now = worked(panel, now)

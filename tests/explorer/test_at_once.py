@@ -46,7 +46,11 @@ STATM = Path("/proc/self/statm")
 
 def resident() -> float:
     """Memory of this process [MB], where the system tells it as Linux does."""
-    return int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6 if STATM.exists() else float("nan")
+    return (
+        int(STATM.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 1e6
+        if STATM.exists()
+        else float("nan")
+    )
 
 
 async def work(visitor: Visitor, app: App, k: int, seconds: float) -> list[float]:
@@ -117,15 +121,24 @@ def test_a_power_comes_with_its_frame_while_another_page_draws_charts(app: App):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("pages", "seconds"), [(4, 1.0), pytest.param(PLACES, 600.0, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(
+    ("pages", "seconds"), [(4, 1.0), pytest.param(PLACES, 600.0, marks=pytest.mark.nightly)]
+)
 def test_pages_at_once_end_at_the_answers_of_each_alone(app: App, pages: int, seconds: float):
     async def visit() -> tuple[list[str], list[Session]]:
         visitors = [Visitor(query=query(k)) for k in range(pages)]
-        each = await asyncio.gather(*(work(visitor, app, k, seconds) for k, visitor in enumerate(visitors)))
+        each = await asyncio.gather(
+            *(work(visitor, app, k, seconds) for k, visitor in enumerate(visitors))
+        )
         took = sorted(time for times in each for time in times)
         half, late = took[len(took) // 2], took[int(0.95 * len(took))]
-        print(f"{len(took)} edits; from edit to picture: median {half:.2f} s, 95 of 100 within {late:.2f} s")
-        sessions, notices = list(app.sessions), [notice for visitor in visitors for notice in visitor.notices]
+        print(
+            f"{len(took)} edits; from edit to picture: median {half:.2f} s, 95 of 100 within {late:.2f} s"
+        )
+        sessions, notices = (
+            list(app.sessions),
+            [notice for visitor in visitors for notice in visitor.notices],
+        )
         for visitor in visitors:
             await visitor.close()
         return notices, sessions
@@ -155,7 +168,9 @@ def small_caches() -> Iterator[App]:
 
 @pytest.mark.slow
 @pytest.mark.nightly
-@pytest.mark.skipif(not STATM.exists(), reason="the system does not tell how much memory a process has")
+@pytest.mark.skipif(
+    not STATM.exists(), reason="the system does not tell how much memory a process has"
+)
 def test_memory_stays_the_same_while_a_hundred_pages_come_and_go(small_caches: App):
     """A page and the solutions that it leaves behind are given back."""
     sizes, app = list[float](), small_caches
@@ -164,7 +179,9 @@ def test_memory_stays_the_same_while_a_hundred_pages_come_and_go(small_caches: A
         for k in range(100):
             visitor = Visitor(query=query(k % 20))
             await visitor.open(app.address)
-            await visitor.until(lambda visitor=visitor: visitor.text("status") == "converged", PATIENCE)
+            await visitor.until(
+                lambda visitor=visitor: visitor.text("status") == "converged", PATIENCE
+            )
             await visitor.move("Adv. ratio µ", 0.25)
             await visitor.idle(PATIENCE, wholly=False)
             await visitor.close()
@@ -179,7 +196,9 @@ def test_memory_stays_the_same_while_a_hundred_pages_come_and_go(small_caches: A
     assert min(sizes[-10:]) - min(sizes[30:40]) < 40.0  # The caches are full by then.
 
 
-def test_what_updates_free_is_returned_while_the_page_stays(app: App, monkeypatch: pytest.MonkeyPatch):
+def test_what_updates_free_is_returned_while_the_page_stays(
+    app: App, monkeypatch: pytest.MonkeyPatch
+):
     """glibc kept it, and one page went on growing."""
     asked = threading.Event()
     monkeypatch.setattr("explorer.session.trim_memory_soon", asked.set)
@@ -356,7 +375,8 @@ def test_pages_that_leave_in_any_state_are_collected(app: App):
             await asyncio.sleep(0.05)
 
     ran(visit)
-    until = time.monotonic() + 180.0  # A busy machine answers late, and a session ends with its work.
+    # A busy machine answers late, and a session ends with its work.
+    until = time.monotonic() + 180.0
     while (left := what_is_left(app, seen, threads)) and time.monotonic() < until:
         time.sleep(0.5)
     assert len(seen) >= len(STATES) - 1

@@ -6,7 +6,15 @@ from typing import Any
 import pytest
 
 from explorer.workers.background import LongWork, WorkRecord
-from rotor.support.processes import Job, JobEnded, JobEvent, JobFailed, JobProgress, JobQueued, JobStarted
+from rotor.support.processes import (
+    Job,
+    JobEnded,
+    JobEvent,
+    JobFailed,
+    JobProgress,
+    JobQueued,
+    JobStarted,
+)
 
 
 class FakePool:
@@ -16,7 +24,9 @@ class FakePool:
         self.jobs: list[Job] = []
         self.stopped: list[tuple[int, bool]] = []
 
-    def begin(self, task: Any, on_event: Callable[[JobEvent], None], limit: float, urgency: int) -> Job:
+    def begin(
+        self, task: Any, on_event: Callable[[JobEvent], None], limit: float, urgency: int
+    ) -> Job:
         self.jobs.append(Job(len(self.jobs), task, on_event, limit, urgency))
         return self.jobs[-1]
 
@@ -53,7 +63,11 @@ def test_it_begins_once_and_again_after_its_end():
     assert (len(bench.pool.jobs), bench.record.state) == (1, "starting")
     assert (bench.pool.jobs[0].limit, bench.pool.jobs[0].urgency) == (60.0, 2)
     bench.pool.jobs[0].tell(JobEnded("found"))
-    assert (bench.record.state, bench.record.result, bench.record.under_way) == ("done", "found", False)
+    assert (bench.record.state, bench.record.result, bench.record.under_way) == (
+        "done",
+        "found",
+        False,
+    )
     bench.begin()
     assert len(bench.pool.jobs) == 2
 
@@ -80,7 +94,10 @@ def test_a_record_follows_the_news():
     assert record.then(JobEnded(None, stopped=True)).words("running", "kept") == "Stopped, kept"
     assert record.then(JobEnded(None, late=True)).words("running", "kept") == "Time is up, kept"
     broken = record.then(JobFailed("It was lost."))
-    assert (broken.sentence, broken.words("running", "kept")) == ("It was lost.", "Ended early, kept")
+    assert (broken.sentence, broken.words("running", "kept")) == (
+        "It was lost.",
+        "Ended early, kept",
+    )
 
 
 def test_halt_keeps_what_is_found_and_leaving_is_quiet():

@@ -39,7 +39,9 @@ def app() -> Iterator[App]:
     app.stop()
 
 
-def visited(app: App, act: Callable[[Visitor, Page], Coroutine[Any, Any, None]], query: str = "") -> None:
+def visited(
+    app: App, act: Callable[[Visitor, Page], Coroutine[Any, Any, None]], query: str = ""
+) -> None:
     """Do this on a page of the server."""
 
     async def visit() -> None:
@@ -101,7 +103,11 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
 def flown(page: Page) -> tuple[object, ...]:
     """All that a presenter leads."""
     view, hand = page.context.display.view, page.actuator.hand()
-    run, optimised, place = page.optimise.run, page.optimise.hand.standing, part_of(page, LecturePanel).place
+    run, optimised, place = (
+        page.optimise.run,
+        page.optimise.hand.standing,
+        part_of(page, LecturePanel).place,
+    )
     return (page.context.controls.inputs(), page.context.pinboard.pinned, run, optimised, hand.on_stage,
             hand.actuator.drives, view.field, view.difference, place)  # fmt: skip
 
@@ -162,7 +168,10 @@ def test_a_swap_by_one_press_is_one_swap(app: App):
         for a, b in ((-3.0, 0.0), (0.0, -3.0)):
             await visitor.press("swap")
             await visitor.idle()
-            assert (page.context.pinboard.pinned.inputs.built_inner, page.context.controls.inputs().built_inner) == (
+            assert (
+                page.context.pinboard.pinned.inputs.built_inner,
+                page.context.controls.inputs().built_inner,
+            ) == (
                 a,
                 b,
             )
@@ -188,9 +197,8 @@ def test_a_page_loaded_again_has_its_design_and_its_steps(app: App):
         await visitor.move(BEGUN, -3.0)
         await visitor.idle(wholly=False)
         shown = visitor.text("total-power")
-        await visitor.until(
-            lambda: "&a=" in visitor.query
-        )  # An address is not written more often than a browser allows.
+        # An address is not written more often than a browser allows.
+        await visitor.until(lambda: "&a=" in visitor.query)
         again = visitor.again()
         await again.open(app.address)
         await again.until(lambda: again.text("status") == "converged")

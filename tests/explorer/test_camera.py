@@ -16,10 +16,14 @@ def camera_of(radius: float) -> tuple[FittedCamera, SimpleNamespace]:
     """A fitted camera, and what the browser would be told."""
     connection = SimpleNamespace(queue_message=lambda _: None)
     state = SimpleNamespace(
-        position=np.zeros(3), look_at=np.zeros(3), client=SimpleNamespace(_websock_connection=connection)
+        position=np.zeros(3),
+        look_at=np.zeros(3),
+        client=SimpleNamespace(_websock_connection=connection),
     )
     camera = SimpleNamespace(on_update=lambda _: None, aspect=1.5, _state=state)
-    return FittedCamera(cast(Any, SimpleNamespace(camera=camera, atomic=nullcontext)), radius), camera
+    return FittedCamera(
+        cast(Any, SimpleNamespace(camera=camera, atomic=nullcontext)), radius
+    ), camera
 
 
 @pytest.mark.parametrize("radius", [0.1, 0.36, 1.1, 3.8, 9.5])

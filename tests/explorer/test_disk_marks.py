@@ -134,7 +134,12 @@ class TestFlatPictures:
 
     def test_a_rotor_tested_alone_has_no_nose(self):
         assert disk_image.sides(make_design(mu=0.2)) == ("TAIL", "ADVANCING", "NOSE", "RETREATING")
-        assert disk_image.sides(make_design(rotor="hart2")) == ("DOWNSTREAM", "ADVANCING", "UPSTREAM", "RETREATING")
+        assert disk_image.sides(make_design(rotor="hart2")) == (
+            "DOWNSTREAM",
+            "ADVANCING",
+            "UPSTREAM",
+            "RETREATING",
+        )
         assert disk_image.sides(make_design(mu=0.0)) == ("TAIL", "", "NOSE", "")
         still = disk_image.sides(make_design(rotor="caradonna-tung", mu=0.0))
         words = [disk_image.ring_mask(each) for each in (still, disk_image.sides(make_design()))]
@@ -163,7 +168,10 @@ class TestAirLines:
         zeta, mu = 2.0 * math.pi * 0.8, 0.4
         last = points[-1, 1] / solution.design.rotor.radius
         left = 0.3 - zeta
-        along, down = mu * math.cos(controls.shaft_tilt), mu * math.sin(controls.shaft_tilt) + controls.lambda0
+        along, down = (
+            mu * math.cos(controls.shaft_tilt),
+            mu * math.sin(controls.shaft_tilt) + controls.lambda0,
+        )
         shed = 1.0 - 0.22 * down / math.hypot(along, down) * (1.0 - math.exp(-zeta / 2.2))
         assert last[0] - shed * math.cos(left) == pytest.approx(along * zeta, rel=1e-6)
 
@@ -178,9 +186,13 @@ class TestAirLines:
             lies = course.nodes(np.array([psi]), age, np.ones(1))[0, :, 0]
             np.testing.assert_allclose(drawn[:, :2], lies[:, :2], atol=1e-12)
             left = psi - age
-            flap = controls.coning + controls.flap_1c * np.cos(left) + controls.flap_1s * np.sin(left)
+            flap = (
+                controls.coning + controls.flap_1c * np.cos(left) + controls.flap_1s * np.sin(left)
+            )
             tip = (1.0 - rotor.blade.flap_hinge) * flap
-            np.testing.assert_allclose(drawn[:, 2] - tip, lies[:, 2] - course.flapping(left), atol=near)
+            np.testing.assert_allclose(
+                drawn[:, 2] - tip, lies[:, 2] - course.flapping(left), atol=near
+            )
 
     def test_in_hover_they_contract_and_sink_with_the_inflow_they_meet(self, hover: Solution):
         points, age = tip_vortices(hover, [0.0])
@@ -200,7 +212,9 @@ class TestInset:
     ROTOR = make_design().rotor
 
     def test_it_is_json_with_true_angles_and_small(self):
-        made = inset_sections(self.ROTOR, LinearTwist(math.radians(-12.0)), self.ROTOR.builtin_twist, 4.0)
+        made = inset_sections(
+            self.ROTOR, LinearTwist(math.radians(-12.0)), self.ROTOR.builtin_twist, 4.0
+        )
         assert len(msgspec.json.encode(made)) < 6000
         assert made.times == 4.0
         assert len(made.cuts) == 8

@@ -9,7 +9,10 @@ from explorer.model.units import AVIATION, SI
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.trim.doubt import Doubt, DoubtRow, OtherModels
 
-ROWS = tuple(DoubtRow(f"row {k}", f"input {k}", 5.0, "a report", 1e3 * (8 - k), 1e2 * (8 - k)) for k in range(8))
+ROWS = tuple(
+    DoubtRow(f"row {k}", f"input {k}", 5.0, "a report", 1e3 * (8 - k), 1e2 * (8 - k))
+    for k in range(8)
+)
 
 
 @pytest.mark.parametrize("against", [None, 905e3])
@@ -47,6 +50,11 @@ def test_ranges_of_the_best_twist_are_bars_on_one_scale():
     assert "−11.0 °/R" in html
     assert html.count("width:25%") == 1  # −12 to −10 between −15 and −7.
     assert html.count("left:50%") == 4  # −11.
-    for words in ("mass 6.7 … 10.0 t", "drag area 0.0 … 4.1 m²", "−7.0 … −13.0", "annuli … lifting line"):
+    for words in (
+        "mass 6.7 … 10.0 t",
+        "drag area 0.0 … 4.1 m²",
+        "−7.0 … −13.0",
+        "annuli … lifting line",
+    ):
         assert words in html
     assert "mass 14\u2009678 … 22\u2009018 lb" in twist_ranges(best, AVIATION)

@@ -40,7 +40,9 @@ LAWS: tuple[TwistLaw, ...] = (
 
 def cut(mesh: trimesh.Trimesh, r: float) -> np.ndarray:
     """Outline points (y, z) [m] where the mesh crosses r = x/R."""
-    lines = trimesh.intersections.mesh_plane(mesh, [1.0, 0.0, 0.0], [r * DESIGN.rotor.radius, 0.0, 0.0])
+    lines = trimesh.intersections.mesh_plane(
+        mesh, [1.0, 0.0, 0.0], [r * DESIGN.rotor.radius, 0.0, 0.0]
+    )
     return np.asarray(lines).reshape(-1, 3)[:, 1:]
 
 
@@ -62,10 +64,21 @@ def test_any_twist_is_watertight_to_scale_and_turned_as_the_law_says(law: TwistL
     mesh, flat = blade_mesh(design), blade_mesh(replace(DESIGN, twist=PLAIN))
     assert mesh.is_watertight
     assert mesh.is_winding_consistent
-    assert mesh.volume == pytest.approx(flat.volume, rel=0.01)  # Turning sections moves no material.
+    # Turning sections moves no material.
+    assert mesh.volume == pytest.approx(flat.volume, rel=0.01)
     hinge = design.rotor.blade.flap_hinge * design.rotor.radius
     assert_allclose(mesh.bounds[:, 0], (hinge, design.rotor.radius), rtol=1e-12)
-    for r in (0.2, 0.3701, 0.55, 0.5999, 0.75, 0.8099, 0.93, 0.9999):  # Beside and between the lofted sections.
+    # Beside and between the lofted sections.
+    for r in (
+        0.2,
+        0.3701,
+        0.55,
+        0.5999,
+        0.75,
+        0.8099,
+        0.93,
+        0.9999,
+    ):
         turned, straight = (cut(one, r) for one in (mesh, flat))
         assert_allclose(reach(turned), reach(straight, float(law(r))), atol=2e-4)
 
@@ -80,7 +93,8 @@ def test_chord_and_thickness_are_those_of_the_rotor(preset: str):
         section = load_installed(inner if weight == 0.0 else outer)
         points, chord = cut(mesh, r), float(blade.chord(r)) * section.chord_ratio
         assert_allclose(chord_of(points), chord, rtol=1e-3)
-        assert 0.09 * chord < np.ptp(points[:, 1]) < 0.12 * chord  # 9.4 and 9.5 % thick, a little nose-down.
+        # 9.4 and 9.5 % thick, a little nose-down.
+        assert 0.09 * chord < np.ptp(points[:, 1]) < 0.12 * chord
 
 
 def test_the_file_is_what_the_mesh_is_and_says_its_unit():
@@ -103,7 +117,8 @@ def test_an_active_twist_is_taken_at_the_azimuth_asked_for():
     for r in (0.5, 0.999):
         swing = math.radians(6.0) * (r - 0.13) / 0.87
         assert_allclose(reach(cut(tail, r)), reach(cut(nose, r), swing), atol=2e-4)
-    assert_allclose(blade_mesh(design).vertices, blade_mesh(DESIGN).vertices)  # On its own: the law alone.
+    # On its own: the law alone.
+    assert_allclose(blade_mesh(design).vertices, blade_mesh(DESIGN).vertices)
 
 
 def test_sections_that_change_at_once_stay_closed():

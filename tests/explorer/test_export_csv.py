@@ -37,9 +37,18 @@ def test_disk_holds_every_field_and_adds_up_to_thrust_and_power():
     for name in ("u_t", "u_p", "induced", "inflow", "mach", "cl", "cd", "cd_mach", "dct", "dcq"):
         assert_allclose(columns[f"{name} [-]"], getattr(disk, name).ravel(), rtol=1e-8, atol=1e-12)
     for name in ("theta", "alpha", "stall_margin"):
-        assert_allclose(columns[f"{name} [deg]"], np.degrees(getattr(disk, name)).ravel(), rtol=1e-8, atol=1e-12)
-    width = np.repeat(disk.dr, len(disk.psi)) * design.rotor.radius / len(disk.psi) * design.rotor.blades
-    assert columns["thrust per blade [N/m]"] @ width == pytest.approx(solution.ct * design.thrust_unit, rel=1e-7)
+        assert_allclose(
+            columns[f"{name} [deg]"], np.degrees(getattr(disk, name)).ravel(), rtol=1e-8, atol=1e-12
+        )
+    width = (
+        np.repeat(disk.dr, len(disk.psi))
+        * design.rotor.radius
+        / len(disk.psi)
+        * design.rotor.blades
+    )
+    assert columns["thrust per blade [N/m]"] @ width == pytest.approx(
+        solution.ct * design.thrust_unit, rel=1e-7
+    )
     assert columns["power per blade [W/m]"] @ width == pytest.approx(solution.power.shaft, rel=1e-7)
     assert f"segments:{-14},{-8}@0.5" in comments[0]
     assert any("advance ratio 0.3, 8322 kg, 0 m" in line for line in comments)
@@ -55,11 +64,15 @@ def test_caveats_are_in_the_comments():
 def test_the_blade_is_what_the_charts_show():
     _, columns = read(blade_csv(SOLUTION, BASELINE, 270.0))
     design = SOLUTION.design
-    assert_allclose(columns["built-in twist [deg]"], np.degrees(design.twist(SOLUTION.disk.r)), rtol=1e-7)
+    assert_allclose(
+        columns["built-in twist [deg]"], np.degrees(design.twist(SOLUTION.disk.r)), rtol=1e-7
+    )
     reverse = SOLUTION.disk.u_t[:, 90] <= 0.0  # 270° of 120 azimuths.
     assert reverse.any()
     assert_allclose(np.isnan(columns["alpha [deg]"]), reverse)
-    assert_allclose(columns["alpha [deg]"][~reverse], np.degrees(SOLUTION.disk.alpha[~reverse, 90]), atol=1e-6)
+    assert_allclose(
+        columns["alpha [deg]"][~reverse], np.degrees(SOLUTION.disk.alpha[~reverse, 90]), atol=1e-6
+    )
     assert_allclose(columns["cl [-]"], SOLUTION.disk.cl[:, 90], rtol=1e-7)
 
 
@@ -73,10 +86,14 @@ def test_power_leaves_what_is_not_known_empty():
     assert_allclose(columns["total power [kW]"], known)
     assert_allclose(columns["power with ideal lift [kW]"], holes)
     assert b"nan" not in content.lower()
-    assert columns["speed [kt]"][-1] == pytest.approx(SWEEP[-1] * SOLUTION.design.rotor.tip_speed * 3600 / 1852)
+    assert columns["speed [kt]"][-1] == pytest.approx(
+        SWEEP[-1] * SOLUTION.design.rotor.tip_speed * 3600 / 1852
+    )
 
 
 def test_a_hovering_rotor_has_the_same_columns():
-    hover = solve(replace(SOLUTION.design, condition=replace(SOLUTION.design.condition, advance_ratio=0.0)))
+    hover = solve(
+        replace(SOLUTION.design, condition=replace(SOLUTION.design.condition, advance_ratio=0.0))
+    )
     assert read(disk_csv(hover))[1].keys() == read(disk_csv(SOLUTION))[1].keys()
     assert b"nan" not in disk_csv(hover).lower()

@@ -25,15 +25,20 @@ from explorer.text.line import sentence
 from rotor import Design, Solution, doubt, make_design, solve
 
 PLAIN = make_design(inflow="drees", elements=16, azimuths=36)
-SEGMENTS = (
-    f"segments:{','.join(f'{-8 - 0.1 * k:g}' for k in range(40))}@{','.join(f'{k / 40:g}' for k in range(1, 40))}"
-)
+RATES = ",".join(f"{-8 - 0.1 * k:g}" for k in range(40))
+BREAKS = ",".join(f"{k / 40:g}" for k in range(1, 40))
+SEGMENTS = f"segments:{RATES}@{BREAKS}"
 DRIVEN = ActuatorInputs(drives=(77.0,) * 5)
 APART = replace(DRIVEN, concept="three-segment", drives=(77.0, -20.0, 10.0, 0.0, 0.0))
-CHANGED = replace(PLAIN, twist=Inputs(law="builtin", built_inner=-2.5, built_outer=1.3).design().twist)
+CHANGED = replace(
+    PLAIN, twist=Inputs(law="builtin", built_inner=-2.5, built_outer=1.3).design().twist
+)
 DESIGNS: dict[str, tuple[Design, str]] = {
     "driven": (DRIVEN.apply(PLAIN), "UH-60A as built + MFC P1 at 1 155 V"),
-    "apart": (APART.apply(CHANGED), "UH-60A as built + segments −2.5/1.3 at 0.5 + MFC P1 at −100…1 155 V"),
+    "apart": (
+        APART.apply(CHANGED),
+        "UH-60A as built + segments −2.5/1.3 at 0.5 + MFC P1 at −100…1 155 V",
+    ),
     "segments": (PLAIN.with_twist(SEGMENTS), "UH-60A · 40 segments, −8.9° root to tip"),
     "own": (
         replace(PLAIN, rotor=replace(PLAIN.rotor, name="An own rotor/of <many> words " * 4)),
@@ -57,13 +62,17 @@ def test_a_title_is_a_line_and_the_numbers_are_in_the_files(name: str):
         assert re.fullmatch(r"[a-z0-9][a-z0-9._-]*", file := file_name(design, ending))
         assert file.endswith(f"-mu0.200{ending}")
         assert len(file) <= 60
-    report = DesignReport(ReportEntry("Baseline", solve(baseline_of(design))), [ReportEntry("Now", one)], ViewState())
+    report = DesignReport(
+        ReportEntry("Baseline", solve(baseline_of(design))), [ReportEntry("Now", one)], ViewState()
+    )
     page = report_html(report, None)
     law = design.to_dict()["twist"]
     assert f'"twist": "{law}"' in page
     assert "segments:" not in law or page.count(law) == 1, "in the design file alone"
     known = np.ones(len(SWEEP))
-    with zipfile.ZipFile(io.BytesIO(tables_zip(one, PLAIN, PowerCurve(known, known, known), 65.0))) as tables:
+    with zipfile.ZipFile(
+        io.BytesIO(tables_zip(one, PLAIN, PowerCurve(known, known, known), 65.0))
+    ) as tables:
         assert tables.namelist() == ["disk.csv", "blade.csv", "power.csv"]
         for table in tables.namelist():
             assert f"twist {design.twist.spec()}" in tables.read(table).decode().splitlines()[0]
@@ -76,7 +85,9 @@ def test_words_of_the_picture_stay_within_it_above_the_scene(name: str, width: i
     one = solution(name)
     scene = np.zeros((HEIGHT, width, 4), np.uint8)
     line = f"{sentence(one, SI)} It needs 12 ± 2 kW more than without it, sure; over its limits in voltage and mass."
-    with Image.open(io.BytesIO(view_png(scene, one, None, line, False, transparent=True))) as picture:
+    with Image.open(
+        io.BytesIO(view_png(scene, one, None, line, False, transparent=True))
+    ) as picture:
         assert picture.size == (width, HEIGHT)
         assert json.loads(picture.text["Design"])["twist"] == one.design.to_dict()["twist"]  # pyright: ignore[reportAttributeAccessIssue]
         inked = np.asarray(picture)[..., 3] > 0

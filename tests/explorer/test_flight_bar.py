@@ -65,8 +65,10 @@ def test_the_bar_goes_through_the_standard_flight_and_half_way_between_its_legs(
     (mu, climb), (one, two) = condition_at(LEGS, 0.5), standard_flight(RIGID)[:2]
     assert mu == pytest.approx(0.5 * (one.advance_ratio + two.advance_ratio), abs=5e-4)
     assert climb == pytest.approx(0.5 * (one.climb_speed + two.climb_speed), abs=5e-3)
-    assert condition_at(LEGS, 1.5)[1] == 0.0  # Level again, as a flight at that speed is that one enters with.
-    assert position_of(LEGS, 0.5) == len(standard_flight(RIGID)) - 1  # Faster than the flight: its end.
+    # Level again, as a flight at that speed is that one enters with.
+    assert condition_at(LEGS, 1.5)[1] == 0.0
+    # Faster than the flight: its end.
+    assert position_of(LEGS, 0.5) == len(standard_flight(RIGID)) - 1
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +100,9 @@ def test_the_page_draws_the_flight_as_it_was_computed(ready: PageState, flight: 
     assert FLIGHT.view(ready) == FLIGHT.view(replace(ready))
     state = shown(ready)
     assert state.kind == "ready"
-    lines: dict[str, Any] = {one.label: one.y for one in state.chart.series if isinstance(one, DrawnLine)}
+    lines: dict[str, Any] = {
+        one.label: one.y for one in state.chart.series if isinstance(one, DrawnLine)
+    }
     assert list(lines) == ["by schedule", "as set"]
     assert_allclose(lines["by schedule"], np.degrees(flight.reached), atol=6e-4)
     assert_allclose(lines["as set"], 0.0)
@@ -106,7 +110,9 @@ def test_the_page_draws_the_flight_as_it_was_computed(ready: PageState, flight: 
     for angles in (flight.reached, flight.reach):
         assert low < math.degrees(min(angles)) <= math.degrees(max(angles)) < high
     reach: Any = next(one for one in state.chart.series if isinstance(one, DrawnBand))
-    assert_allclose([reach.low, reach.high], np.degrees([[end] * len(LEGS) for end in flight.reach]), atol=6e-4)
+    assert_allclose(
+        [reach.low, reach.high], np.degrees([[end] * len(LEGS) for end in flight.reach]), atol=6e-4
+    )
     assert [name for name, _ in state.legs] == ["hover", "climb", "cruise", "fast"]
     assert condition_at(LEGS, state.at)[0] == pytest.approx(0.2, abs=2e-3)
     assert (state.tip, state.state) == ("0.00°", "set")
@@ -115,9 +121,14 @@ def test_the_page_draws_the_flight_as_it_was_computed(ready: PageState, flight: 
     assert "kt" in shown(aviation).legs[1][1]
 
 
-def test_what_is_being_computed_is_said_and_keeps_its_place(waiting: PageState, ready: PageState, verdict: Verdict):
+def test_what_is_being_computed_is_said_and_keeps_its_place(
+    waiting: PageState, ready: PageState, verdict: Verdict
+):
     """Nothing jumps: the curves and the balance of the question before stay, marked."""
-    assert (shown(waiting).kind, [one.label for one in shown(waiting).chart.series]) == ("computing", ["as set"])
+    assert (shown(waiting).kind, [one.label for one in shown(waiting).chart.series]) == (
+        "computing",
+        ["as set"],
+    )
     assert asked(FLIGHT, waiting) == {}
     assert "flight_of" not in asked(ACTUATOR, waiting)
     moved = replace(ready, hand=replace(ready.hand, actuator=ActuatorInputs(plies=3)))
@@ -126,7 +137,10 @@ def test_what_is_being_computed_is_said_and_keeps_its_place(waiting: PageState, 
     assert before == replace(earns_state(verdict, True, SI), kind="computing")
     judged = told(ACTUATOR, waiting, lean_verdict=verdict)
     wrong = told(ACTUATOR, judged, flight_of="hover: does not trim")
-    assert (shown(wrong).kind, shown(wrong).words.endswith("; hover: does not trim")) == ("problem", True)
+    assert (shown(wrong).kind, shown(wrong).words.endswith("; hover: does not trim")) == (
+        "problem",
+        True,
+    )
     refused = FLIGHT.view(told(ACTUATOR, moved, lean_verdict="no blade"))
     assert refused["earns"] == earns_state(None, False, SI, "no blade")
     assert shown(told(ACTUATOR, moved, lean_verdict="no blade")).words.endswith("; no blade")
@@ -140,7 +154,8 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
     assert total.total
     written = [float(bar.text.replace("−", "-")) for bar in state.bars]
     assert sum(written[:-1]) == written[-1]
-    for bar, value in zip(state.bars, written, strict=True):  # Red is loss and green is gain, where that is known.
+    # Red is loss and green is gain, where that is known.
+    for bar, value in zip(state.bars, written, strict=True):
         assert bar.value == pytest.approx(value, abs=1.0)
         known = bar.value and (not bar.band or sureness(bar.value, bar.band) != "unclear")
         assert bar.kind == ("" if not known else "loss" if bar.value > 0.0 else "gain")
@@ -152,10 +167,15 @@ def test_the_bars_of_the_balance_add_up_to_the_verdict(verdict: Verdict):
         1e-3 * verdict.bands[[name for name, _ in verdict.savings].index("mass")], abs=1e-3
     )
     assert all(bands.values())
-    assert total.title == f"total {needs_words(verdict.net_saving, verdict.net_band, SI, sourced=False)}"
+    assert (
+        total.title
+        == f"total {needs_words(verdict.net_saving, verdict.net_band, SI, sourced=False)}"
+    )
     assert verdict.fuel_saving is not None
     burnt = -3600.0 * verdict.fuel_saving
-    used, word = re.findall(r"^([+-][\d.]+) ± [\d.]+ kg/h of fuel: (\w+)$", state.fuel.replace("−", "-"))[0]
+    used, word = re.findall(
+        r"^([+-][\d.]+) ± [\d.]+ kg/h of fuel: (\w+)$", state.fuel.replace("−", "-")
+    )[0]
     assert float(used) == pytest.approx(burnt, abs=0.06)
     assert word == sureness(verdict.net_saving, verdict.net_band, sourced=False) == "likely"
     assert state.fuel_kind == ("loss" if burnt > 0.0 else "gain")
@@ -165,32 +185,48 @@ def scheduled(now: PageState) -> PageState:
     return done(now, choose_state(now, "schedule"))
 
 
-def test_by_schedule_a_place_of_the_bar_sets_condition_and_voltages(ready: PageState, flight: ActuatorFlight):
+def test_by_schedule_a_place_of_the_bar_sets_condition_and_voltages(
+    ready: PageState, flight: ActuatorFlight
+):
     """By the inputs of the sliders; the blade has the twist that the chart says is reached there. As set it flies
     alone."""
     for x, leg in enumerate(standard_flight(RIGID)):
         there = done(ready, fly_to(scheduled(ready), x))
-        assert (there.inputs.advance_ratio, there.inputs.climb_m_s) == (leg.advance_ratio, leg.climb_speed)
-        assert_allclose(tip(there), flight.reached[POINTS_PER_LEG * x], atol=math.radians(0.02))  # In whole per cent.
+        assert (there.inputs.advance_ratio, there.inputs.climb_m_s) == (
+            leg.advance_ratio,
+            leg.climb_speed,
+        )
+        # In whole per cent.
+        assert_allclose(tip(there), flight.reached[POINTS_PER_LEG * x], atol=math.radians(0.02))
         alone = done(ready, fly_to(ready, x))
         assert (alone.inputs, alone.hand) == (there.inputs, ready.hand)
     between = done(ready, fly_to(scheduled(ready), 0.25))
-    assert_allclose(tip(between), np.interp(0.5, [0, 1], flight.reached[:2]), atol=math.radians(0.02))
+    assert_allclose(
+        tip(between), np.interp(0.5, [0, 1], flight.reached[:2]), atol=math.radians(0.02)
+    )
     assert done(ready, fly_to(ready, 99)).inputs.advance_ratio == LEGS[-1].advance_ratio
     untrimmed = replace(ready, problem="No trim there.")  # It can be flown out of.
     assert FLIGHT.view(untrimmed) == {}
-    assert done(untrimmed, fly_to(untrimmed, 1)).inputs.advance_ratio == LEGS[POINTS_PER_LEG].advance_ratio
+    assert (
+        done(untrimmed, fly_to(untrimmed, 1)).inputs.advance_ratio
+        == LEGS[POINTS_PER_LEG].advance_ratio
+    )
 
 
-def test_the_voltages_follow_once_the_flight_is_known(waiting: PageState, ready: PageState, flight: ActuatorFlight):
+def test_the_voltages_follow_once_the_flight_is_known(
+    waiting: PageState, ready: PageState, flight: ActuatorFlight
+):
     begun = scheduled(waiting)
     flown = done(begun, fly_to(begun, 3))
     assert flown.inputs.advance_ratio == LEGS[-1].advance_ratio  # The condition needs no answer.
     assert tip(flown) == 0.0
     assert FLIGHT.reacts(flown) == ()
     known = replace(flown, answers=ready.answers)
-    assert_allclose(tip(done(known, FLIGHT.reacts(known))), flight.reached[-1], atol=math.radians(0.02))
-    assert FLIGHT.reacts(replace(known, memory=ready.memory)) == ()  # Once: then a hand may move them.
+    assert_allclose(
+        tip(done(known, FLIGHT.reacts(known))), flight.reached[-1], atol=math.radians(0.02)
+    )
+    # Once: then a hand may move them.
+    assert FLIGHT.reacts(replace(known, memory=ready.memory)) == ()
     assert FLIGHT.reacts(replace(known, hand=replace(known.hand, flown=None))) == ()
 
 
@@ -207,7 +243,11 @@ def test_the_three_states_and_the_way_back_to_what_the_hand_had_set(
     back = done(stopped, fly_to(stopped, 0))
     assert back.inputs.advance_ratio == 0.0
     assert_allclose([tip(there), tip(back)], flight.reached[-1], atol=math.radians(0.02))
-    (line,) = [one for one in shown(back).chart.series if isinstance(one, DrawnLine) and one.label == "stopped"]
+    (line,) = [
+        one
+        for one in shown(back).chart.series
+        if isinstance(one, DrawnLine) and one.label == "stopped"
+    ]
     assert_allclose(np.array(line.y, dtype=float), math.degrees(tip(back)), atol=6e-4)
     assert [shown(now).state for now in (by_hand, there, back)] == ["set", "schedule", "stopped"]
     assert shown(back).tip == shown(there).tip

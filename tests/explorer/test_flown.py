@@ -40,7 +40,9 @@ class TestFlights:
             at_once(flown.trim_flights(solution, lambda: drawn.append(True)))
         assert len(drawn) == 1
         other = solve(at_test("gazelle", "FC2").design())
-        assert f"computed {other.power.main_rotor / 1e3:.1f} kW" in flown.marks(solution, SI).words[1]
+        assert (
+            f"computed {other.power.main_rotor / 1e3:.1f} kW" in flown.marks(solution, SI).words[1]
+        )
         percent = 100.0 * (solution.power.main_rotor / 172.5e3 - 1.0)
         assert flown.value(solution) == f"FC1: {percent:.1f} %".replace("-", "−")
         assert "TM-88351" in source_of(solution.design)
@@ -69,7 +71,10 @@ class TestAirloads:
         radii = {0.75: 0.75, 0.9: 0.88, 1.0: 0.97}
         for r, measured in radii.items():
             there = airload_comparison(fast, r)
-            assert {curve.quantity: curve.r for curve, _, _ in there.curves} == {"cl": measured, "cl_u2": measured}
+            assert {curve.quantity: curve.r for curve, _, _ in there.curves} == {
+                "cl": measured,
+                "cl_u2": measured,
+            }
         assert 'data-do="flown" data-value="FC2"' in measured_panel(beside, 1.0)
 
     @pytest.mark.parametrize("case", ["BL", "MN"])
@@ -78,7 +83,12 @@ class TestAirloads:
         beside = airload_comparison(solution, 0.87)
         assert beside is not None
         assert (beside.case.name, beside.at_test, beside.blade) == (case, True, True)
-        assert [curve.quantity for curve, _, _ in beside.curves] == ["cn_m2", "cm_m2", "tip_twist_deg", "tip_flap"]
+        assert [curve.quantity for curve, _, _ in beside.curves] == [
+            "cn_m2",
+            "cm_m2",
+            "tip_twist_deg",
+            "tip_flap",
+        ]
         html = measured_panel(beside, 1.0)
         assert html.count('"value":"correlation ') == 4
         assert "<button" not in html
@@ -94,11 +104,15 @@ class TestAirloads:
     def test_the_correlation_is_that_of_the_waves_without_the_mean(self):
         psi = np.linspace(0.0, 2.0 * math.pi, 72, endpoint=False)
         beside = airload_comparison(solve(FC1.design()), 0.75)
-        measured = MeasuredCurve(beside.case, "cl_u2", 0.75, psi, 0.3 + np.cos(psi) + 5.0 * np.cos(20.0 * psi))
+        measured = MeasuredCurve(
+            beside.case, "cl_u2", 0.75, psi, 0.3 + np.cos(psi) + 5.0 * np.cos(20.0 * psi)
+        )
         assert correlation(measured, psi, 7.0 + 2.0 * np.cos(psi)) == pytest.approx(1.0)
         assert correlation(measured, psi, np.cos(psi - math.pi / 3.0)) == pytest.approx(0.5)
 
-    @pytest.mark.parametrize("inputs", [OPENING, with_rotor(OPENING, "bo105"), replace(GAZELLE, advance_ratio=0.0)])
+    @pytest.mark.parametrize(
+        "inputs", [OPENING, with_rotor(OPENING, "bo105"), replace(GAZELLE, advance_ratio=0.0)]
+    )
     def test_none_in_hover_and_for_a_rotor_without(self, inputs: Inputs):
         assert airload_comparison(solve(inputs.design()), 0.75) is None
 
@@ -130,4 +144,7 @@ def test_the_chip_says_what_was_measured():
     changed = validated(solve(replace(FC1, law="linear", linear=-12.0).design()))
     assert "The measured blade has the twist as built." in changed.sentence
     assert validated(solve(with_rotor(OPENING, "hart2").design())).words == "airloads measured"
-    assert validated(solve(replace(GAZELLE, advance_ratio=0.0).design())).words == "no test data at this condition"
+    assert (
+        validated(solve(replace(GAZELLE, advance_ratio=0.0).design())).words
+        == "no test data at this condition"
+    )

@@ -12,7 +12,13 @@ from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import PAGE, blade_shape, inset_sections
 from explorer.picture.element import probe
 from explorer.picture.fields import FIELDS, fitted_range
-from explorer.picture.picture import field_values, flown_twist, follows_azimuth, overlay_twist, turned_blades
+from explorer.picture.picture import (
+    field_values,
+    flown_twist,
+    follows_azimuth,
+    overlay_twist,
+    turned_blades,
+)
 from explorer.picture.polar import DrawnSolution, polar_grid
 from explorer.text.readout import trim_panel
 from explorer.widgets.twist_curve import flown_band, shown_twist
@@ -47,8 +53,12 @@ class TestFlownTwist:
     def test_in_hover_it_is_the_same_at_every_azimuth(self, hover: Solution):
         assert not follows_azimuth(hover)
         assert len(turned_blades(hover, VIEW).forms) == 1  # One does for all.
-        assert_allclose(flown_twist(hover, 0.3)(hover.disk.r), flown_twist(hover, 4.0)(hover.disk.r), atol=1e-15)
-        assert float(flown_twist(hover, 0.0)([1.0])[0]) < float(hover.design.twist([1.0])[0]) - math.radians(1.0)
+        assert_allclose(
+            flown_twist(hover, 0.3)(hover.disk.r), flown_twist(hover, 4.0)(hover.disk.r), atol=1e-15
+        )
+        assert float(flown_twist(hover, 0.0)([1.0])[0]) < float(
+            hover.design.twist([1.0])[0]
+        ) - math.radians(1.0)
 
 
 class TestBlades:
@@ -68,7 +78,9 @@ class TestInset:
         other, r = LinearTwist(-0.1), np.linspace(0.2, 1.0, 9)
         overlay = overlay_twist(fast, other, 1.0)
         assert overlay is not None
-        assert_allclose(flown_twist(fast, 1.0)(r) - overlay(r), fast.design.twist(r) - other(r), atol=1e-15)
+        assert_allclose(
+            flown_twist(fast, 1.0)(r) - overlay(r), fast.design.twist(r) - other(r), atol=1e-15
+        )
 
     def test_it_holds_the_flown_angles_and_those_at_three_quarters(self, fast: Solution):
         twist = flown_twist(fast, 1.0)
@@ -88,7 +100,9 @@ class TestCurves:
         band = flown_band(fast, r)
         assert band is not None
         mean, low, high = band
-        assert_allclose(mean - shown_twist(fast.design)(r), np.degrees(fast.elastic.along_blade), atol=1e-9)
+        assert_allclose(
+            mean - shown_twist(fast.design)(r), np.degrees(fast.elastic.along_blade), atol=1e-9
+        )
         assert (low < mean).all()
         assert (mean < high).all()
         assert high[-1] - low[-1] == pytest.approx(math.degrees(np.ptp(fast.elastic.tip)), abs=0.02)
@@ -100,7 +114,9 @@ class TestField:
         low, high = fitted_range(FIELD, values)
         assert low == -high
         assert high >= np.quantile(np.abs(values), 0.99)
-        assert np.abs(values).max() == pytest.approx(math.degrees(np.abs(fast.elastic.tip).max()), abs=0.15)
+        assert np.abs(values).max() == pytest.approx(
+            math.degrees(np.abs(fast.elastic.tip).max()), abs=0.15
+        )
 
     def test_a_rigid_blade_has_none(self, rigid: Solution):
         grid = polar_grid(rigid.disk, 40, 120)

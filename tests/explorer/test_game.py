@@ -46,9 +46,16 @@ def by_hand(game: Game, inputs: Inputs) -> float:
     while stride >= 1:
         moves = itertools.product((0, stride, -stride), repeat=len(names))
         tries = [
-            tuple(round(value + k * step, 4) for value, k, step in zip(at, move, steps, strict=True)) for move in moves
+            tuple(
+                round(value + k * step, 4) for value, k, step in zip(at, move, steps, strict=True)
+            )
+            for move in moves
         ]
-        held = [values for values in tries if all(within(*pair) for pair in zip(names, values, strict=True))]
+        held = [
+            values
+            for values in tries
+            if all(within(*pair) for pair in zip(names, values, strict=True))
+        ]
         best = min(held, key=power)
         at, stride = (best, stride) if power(best) < power(at) else (at, stride // 2)
     return power(at)
@@ -61,7 +68,11 @@ def within(name: str, value: float) -> bool:
 
 @pytest.mark.parametrize(
     ("concept", "inputs"),
-    [("linear", PLAIN), ("quadratic", PLAIN), pytest.param("two-segment-free", OPENING, marks=pytest.mark.slow)],
+    [
+        ("linear", PLAIN),
+        ("quadratic", PLAIN),
+        pytest.param("two-segment-free", OPENING, marks=pytest.mark.slow),
+    ],
 )
 def test_a_hand_from_the_same_start_ties_with_the_search(concept: str, inputs: Inputs):
     game = game_by(concept, inputs)
@@ -106,7 +117,9 @@ def test_no_game_where_the_sliders_cannot_do_what_the_search_did():
 
 @pytest.fixture
 def game() -> Game:
-    start, least, score = (replace(PLAIN.design(), twist=make_design(twist=spec).twist) for spec in SPECS)
+    start, least, score = (
+        replace(PLAIN.design(), twist=make_design(twist=spec).twist) for spec in SPECS
+    )
     return Game(start, least, score)
 
 
@@ -116,7 +129,9 @@ SPECS = ("linear:-16", "linear:-7.5", "linear:-9")
 def test_a_link_opens_the_same_game(game: Game):
     for sent in (game, replace(game, score=None)):
         got = game_from(sent.code())
-        powers = [[solve(one).require().power.total for one in designs(each)] for each in (sent, got)]
+        powers = [
+            [solve(one).require().power.total for one in designs(each)] for each in (sent, got)
+        ]
         assert powers[0] == pytest.approx(powers[1], rel=1e-9)
         assert got.holds(with_optimum(PLAIN, got.start))
 
@@ -128,7 +143,13 @@ def designs(game: Game) -> list[Design]:
 def test_a_try_has_the_flight_and_the_law_of_the_game(game: Game):
     tried = replace(PLAIN, law="linear", linear=-3.0)
     assert game.holds(tried)
-    for other in ({"law": "builtin"}, {"law": "two"}, {"mass_t": 9.0}, {"advance_ratio": 0.3}, {"inflow": "uniform"}):
+    for other in (
+        {"law": "builtin"},
+        {"law": "two"},
+        {"mass_t": 9.0},
+        {"advance_ratio": 0.3},
+        {"inflow": "uniform"},
+    ):
         assert not game.holds(replace(tried, **other))
 
 
@@ -144,7 +165,12 @@ def test_a_text_that_is_no_game_is_refused(game: Game):
 def test_the_same_flight_and_models_and_no_other():
     start, optimum = (make_design(mu=0.2, twist=twist) for twist in ("linear:-4", "linear:-11"))
     assert same_but_twist(optimum, start)
-    others: list[dict[str, Any]] = [{"mu": 0.21}, {"mass_kg": 9000.0}, {"inflow": "drees"}, {"rotor": "r22"}]
+    others: list[dict[str, Any]] = [
+        {"mu": 0.21},
+        {"mass_kg": 9000.0},
+        {"inflow": "drees"},
+        {"rotor": "r22"},
+    ]
     for other in others:
         asked: dict[str, Any] = {"mu": 0.2, "twist": "linear:-4", **other}
         assert not same_but_twist(optimum, make_design(**asked))
@@ -155,4 +181,6 @@ def test_an_optimum_that_came_by_a_link_has_the_same_power():
     optimum = optimise(PLAIN.design(), "linear", starts=1).design
     game = Game(PLAIN.design(), optimum)
     got = game_from(game.code()).least
-    assert solve(got).require().power.total == pytest.approx(solve(optimum).require().power.total, rel=1e-9)
+    assert solve(got).require().power.total == pytest.approx(
+        solve(optimum).require().power.total, rel=1e-9
+    )

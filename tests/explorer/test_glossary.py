@@ -19,7 +19,10 @@ WIDGETS = {
     for kind in ("slider", "multi_slider", "number", "vector2", "text", "checkbox", "dropdown", "button",
                  "button_group", "upload_button")
 }  # fmt: skip
-ENTRIES = {**{f"control {k}": v for k, v in CONTROLS.items()}, **{f"read-out {k}": v for k, v in READOUTS.items()}}
+ENTRIES = {
+    **{f"control {k}": v for k, v in CONTROLS.items()},
+    **{f"read-out {k}": v for k, v in READOUTS.items()},
+}
 
 
 def test_every_equation_and_section_named_is_there():
@@ -27,7 +30,9 @@ def test_every_equation_and_section_named_is_there():
         for number in entry.equations:
             assert f"({number})" in THEORY, f"{name}: eq. ({number}) is not in docs/theory.md"
         if entry.section:
-            assert f"\n## {entry.section} " in THEORY, f"{name}: docs/theory.md has no section {entry.section}"
+            assert f"\n## {entry.section} " in THEORY, (
+                f"{name}: docs/theory.md has no section {entry.section}"
+            )
 
 
 def _never_seen(call: ast.Call) -> bool:
@@ -40,15 +45,23 @@ def test_every_widget_that_is_made_anywhere_has_its_hint_from_the_glossary():
     """Names of the hints of all tabs, by reading the code: `hint=hint("name")`, or a variable that holds it."""
     for path in sorted((ROOT / "explorer").rglob("*.py")):
         for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-            if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute) and node.func.attr in WIDGETS):
+            if not (
+                isinstance(node, ast.Call)
+                and isinstance(node.func, ast.Attribute)
+                and node.func.attr in WIDGETS
+            ):
                 continue
-            label = node.args[0].value if node.args and isinstance(node.args[0], ast.Constant) else ""
+            label = (
+                node.args[0].value if node.args and isinstance(node.args[0], ast.Constant) else ""
+            )
             given = [keyword.value for keyword in node.keywords if keyword.arg == "hint"]
             where = f"{path.relative_to(ROOT)}:{node.lineno}, {label!r}"
             assert given or label == "Close" or _never_seen(node), (
                 f"{where}: give it hint=hint(…) and a sentence in explorer/text/glossary.toml"
             )
-            assert not any(isinstance(value, ast.Constant) for value in given), f"{where}: put it into the glossary"
+            assert not any(isinstance(value, ast.Constant) for value in given), (
+                f"{where}: put it into the glossary"
+            )
 
 
 @pytest.mark.parametrize("mu", [0.0, 0.25])

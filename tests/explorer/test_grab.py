@@ -57,7 +57,9 @@ class TestStations:
         r = np.linspace(0.25, 0.95, 30)
         before, after = inputs.design().twist(r), ready.design().twist(r)
         # Ideal twist is steepest at the root: two segments miss it there by a quarter of its range.
-        assert np.abs((before - before.mean()) - (after - after.mean())).max() < 0.28 * np.ptp(before)
+        assert np.abs((before - before.mean()) - (after - after.mean())).max() < 0.28 * np.ptp(
+            before
+        )
 
 
 class TestTurning:
@@ -67,7 +69,8 @@ class TestTurning:
         for index in (0, -1):
             station = stations(inputs)[index]
             neighbour = stations(inputs)[1 if index == 0 else -2]
-            if stations(inputs)[1].title == "middle":  # The ends of a curve turn against each other.
+            # The ends of a curve turn against each other.
+            if stations(inputs)[1].title == "middle":
                 neighbour = stations(inputs)[-1 if index == 0 else 0]
             after = with_station_turned(inputs, station, 2.0)
             change = angles(after, station.r, neighbour.r) - angles(inputs, station.r, neighbour.r)
@@ -80,7 +83,9 @@ class TestTurning:
         station = stations(inputs)[1]
         inboard, outboard = stations(inputs)[0].r, stations(inputs)[2].r
         after = with_station_turned(inputs, station, 1.5)
-        change = angles(after, inboard, station.r, outboard) - angles(inputs, inboard, station.r, outboard)
+        change = angles(after, inboard, station.r, outboard) - angles(
+            inputs, inboard, station.r, outboard
+        )
         assert change[2] - change[0] == pytest.approx(0.0, abs=0.06)
         assert change[1] - change[0] == pytest.approx(1.5, abs=0.06)
 
@@ -131,7 +136,10 @@ def seen_at(grab: StationDrag, turn: float) -> tuple[float, float, float]:
     """Turn that the sliders reach, power there, and its exact slope."""
     inputs = with_station_turned(grab.inputs, grab.station, turn)
     solution = solve(inputs.design())
-    slopes = {name: one.slope for name, one in twist_sensitivities(inputs, power_gradient(solution)).items()}
+    slopes = {
+        name: one.slope
+        for name, one in twist_sensitivities(inputs, power_gradient(solution)).items()
+    }
     reached, slope = grab.turn_to(inputs), grab.power_slope(slopes)
     assert reached is not None
     assert slope is not None
@@ -140,7 +148,12 @@ def seen_at(grab: StationDrag, turn: float) -> tuple[float, float, float]:
 
 class TestGrab:
     def test_the_nearest_station_is_taken(self):
-        assert [grab_at(r).station.title for r in (0.2, 0.4, 0.7, 0.9)] == ["root", "break point", "break point", "tip"]
+        assert [grab_at(r).station.title for r in (0.2, 0.4, 0.7, 0.9)] == [
+            "root",
+            "break point",
+            "break point",
+            "tip",
+        ]
 
 
 class TestBestTurn:
@@ -158,8 +171,15 @@ class TestBestTurn:
         assert BestTurn().with_turn(0.0, 0.0, 100.0).with_turn(1.0, 75.0, 50.0).turn is None
         assert BestTurn().with_turn(0.0, 0.0, -100.0).with_turn(1.0, -99.5, -99.0).power is None
 
-    @given(st.floats(-6.0, 6.0), st.floats(10.0, 500.0), st.floats(0.2, 5.0), st.sampled_from((-1.0, 1.0)))
-    def test_powers_of_a_parabola_foresee_it_as_its_slopes_do(self, least: float, curve: float, far: float, way: float):
+    @given(
+        st.floats(-6.0, 6.0),
+        st.floats(10.0, 500.0),
+        st.floats(0.2, 5.0),
+        st.sampled_from((-1.0, 1.0)),
+    )
+    def test_powers_of_a_parabola_foresee_it_as_its_slopes_do(
+        self, least: float, curve: float, far: float, way: float
+    ):
         """The slope is known where the station was taken alone."""
 
         def power(turn: float) -> float:
@@ -236,9 +256,12 @@ class TestTwistCurve:
         assert bridge.state["twisting"].stations == pytest.approx([ROOT, 0.5, 1.0])
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
         for turn, power, slope in ((0.0, 1225.0, -300.0), (0.5, 1100.0, -200.0)):
-            editor.learn(with_station_turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
+            editor.learn(
+                with_station_turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5}
+            )
         best = editor.held.best
-        assert best.theta == pytest.approx(start + 0.5 * 1.5, abs=0.03)  # Half of a turn is seen from 0.75 R.
+        # Half of a turn is seen from 0.75 R.
+        assert best.theta == pytest.approx(start + 0.5 * 1.5, abs=0.03)
         assert best.power == pytest.approx(1000.0)
         assert not best.held
         bridge.press("knot", ["2", [None, best.theta + 0.1]])
@@ -253,8 +276,12 @@ class TestTwistCurve:
         editor, bridge, now, _ = editor_of(TWO)
         editor.grab(1.0)
         start = float(angles(TWO, 1.0)[0] - angles(TWO, 0.75)[0])
-        wanted = [(start + 0.25 * (end - TWO.two_outer), "Outboard [°/R]") for end in limits("two_outer")]
-        for (theta, title), (expected, name) in zip(bridge.state["twisting"].ends, wanted, strict=True):
+        wanted = [
+            (start + 0.25 * (end - TWO.two_outer), "Outboard [°/R]") for end in limits("two_outer")
+        ]
+        for (theta, title), (expected, name) in zip(
+            bridge.state["twisting"].ends, wanted, strict=True
+        ):
             assert (theta, title) == (pytest.approx(expected, abs=0.02), name)
         bridge.press("knot", ["2", [None, 60.0]])
         assert now[0].two_outer == limits("two_outer")[1]
@@ -268,7 +295,9 @@ class TestTwistCurve:
         end = (limits("two_outer")[1] - TWO.two_outer) * 0.5
         for turn in (0.0, 1.0):
             power, slope = (turn - end - 1.0) ** 2, 2.0 * (turn - end - 1.0)
-            editor.learn(with_station_turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5})
+            editor.learn(
+                with_station_turned(TWO, stations(TWO)[2], turn), power, {"two_outer": slope * 0.5}
+            )
         assert editor.held.best is None
 
     def test_escape_brings_back_the_law_that_was_there(self):

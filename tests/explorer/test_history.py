@@ -93,7 +93,8 @@ class TestHistory:
         history.undo()
         history.undo()
         assert history.redo() == replace(START, two_inner=-15.0)
-        assert not history.note(history.present, 0.1)  # The page's own echo is no step and drops none.
+        # The page's own echo is no step and drops none.
+        assert not history.note(history.present, 0.1)
         assert history.redo() == replace(START, two_inner=-15.0, advance_ratio=0.3)
         history.undo()
         drag(history, "mass_t", [9.0], LONG)
@@ -185,7 +186,9 @@ BAD = {
 def test_a_bad_link_opens_the_page_with_one_sentence(code: str):
     address = Address("?d=" + code, lambda query: None)
     assert address.read(DESIGN, inputs_from, START, "Not the design") == START
-    with pytest.raises(ValueError, match=r"\w") as caught:  # As A of a link, which is read elsewhere.
+    with pytest.raises(
+        ValueError, match=r"\w"
+    ) as caught:  # As A of a link, which is read elsewhere.
         inputs_from(code)
     for sentence in (str(caught.value), *(said for _, said in address.problems)):
         assert BAD[code] in sentence
@@ -199,9 +202,18 @@ def test_a_bad_link_opens_the_page_with_one_sentence(code: str):
     ("code", "expected"),
     [
         ("1;segments:-14,-8@0.5;mass=8320", {"law": "two", "two_inner": -14.0, "two_outer": -8.0}),
-        ("1;linear:-12.5;mu=0.31;mass=8320;inflow=drees", {"law": "linear", "advance_ratio": 0.31, "inflow": "drees"}),
-        ("1;segments:-16,-12,-6@0.4,0.75;mass=9100;alt=1500", {"law": "three", "mass_t": 9.1, "altitude_m": 1500.0}),
-        ("1;segments:-14,-8@0.5;mass=8320;tip_loss=false;hub_loss=false", {"tip_loss": False, "hub_loss": False}),
+        (
+            "1;linear:-12.5;mu=0.31;mass=8320;inflow=drees",
+            {"law": "linear", "advance_ratio": 0.31, "inflow": "drees"},
+        ),
+        (
+            "1;segments:-16,-12,-6@0.4,0.75;mass=9100;alt=1500",
+            {"law": "three", "mass_t": 9.1, "altitude_m": 1500.0},
+        ),
+        (
+            "1;segments:-14,-8@0.5;mass=8320;tip_loss=false;hub_loss=false",
+            {"tip_loss": False, "hub_loss": False},
+        ),
     ],
 )
 def test_a_link_means_what_its_words_say(code: str, expected: dict[str, object]):
@@ -256,7 +268,10 @@ COURSES = {
     ),
     "the same inputs keep the count": (*BEGUN, (at(-9.0), 847e3, 0.0, -3e3)),
     "after a pause the next movement counts anew": (*BEGUN, (at(-10.0), 845e3, PAUSE, -2e3)),
-    "another slider counts anew without a pause": (*BEGUN, (at(-9.0, mass_t=9.0), 950e3, DRAG, 103e3)),
+    "another slider counts anew without a pause": (
+        *BEGUN,
+        (at(-9.0, mass_t=9.0), 950e3, DRAG, 103e3),
+    ),
     "while the pointer is down neither a pause nor a second input ends the grab": (
         BEGUN[0],
         "grab",
@@ -265,7 +280,11 @@ COURSES = {
         "release",
         (at(-10.0, two_division=0.6), 845e3, 10.0, -1e3),
     ),
-    "a second grab counts from where the slider stands": (*BEGUN, "grab", (at(-9.5), 846e3, DRAG, -1e3)),
+    "a second grab counts from where the slider stands": (
+        *BEGUN,
+        "grab",
+        (at(-9.5), 846e3, DRAG, -1e3),
+    ),
     "a step without trim has no change and does not spoil the next": (
         *BEGUN,
         (at(-30.0), None, DRAG, None),

@@ -17,7 +17,9 @@ from explorer.widgets.layout import KEYS, Keyboard, is_for_presenter, keys_help
 SHIFT, CTRL, CTRL_SHIFT = "shift", "cmd/ctrl", "cmd/ctrl+shift"
 TAKEN_BY_THE_CAMERA = set("WASDQE")
 TAKEN_BY_BROWSERS = (
-    {(key, CTRL) for key in "CVXANTWRLDFPSQ"} | {(key, CTRL_SHIFT) for key in "NTWPIJCR"} | {("K", CTRL)}
+    {(key, CTRL) for key in "CVXANTWRLDFPSQ"}
+    | {(key, CTRL_SHIFT) for key in "NTWPIJCR"}
+    | {("K", CTRL)}
 )
 
 
@@ -28,7 +30,9 @@ def test_each_key_is_one_of_the_page_free_and_does_one_thing():
     assert not set(keys) & TAKEN_BY_BROWSERS
     known = {*typing.get_args(_messages.HotkeyKey), "?"}
     assert {key.key for key in KEYS.values()} - {""} <= known
-    assert {key.modifier for key in KEYS.values()} - {""} <= set(typing.get_args(_messages.KeyModifier))
+    assert {key.modifier for key in KEYS.values()} - {""} <= set(
+        typing.get_args(_messages.KeyModifier)
+    )
 
 
 def test_the_list_shows_what_is_bound_and_nothing_else():
@@ -62,7 +66,9 @@ class TestKeyboard:
 
         for name in ("undo", "redo"):
             keyboard.bind(name, more)
-        commands = [c for c in client.gui._command_handle_from_uuid.values() if c.label in ("Undo", "Redo")]
+        commands = [
+            c for c in client.gui._command_handle_from_uuid.values() if c.label in ("Undo", "Redo")
+        ]
         assert [(c.hotkey, c.modifier) for c in commands] == [("Z", CTRL), ("Z", CTRL_SHIFT)]
         threads = [threading.Thread(target=c._impl.trigger_cb[0], args=(None,)) for c in commands]
         for thread in threads:
@@ -82,4 +88,13 @@ class TestKeyboard:
 def test_who_follows_a_presenter_keeps_what_is_seen_not_what_is_flown():
     free = {name for name in KEYS if not is_for_presenter(name)}
     assert {"view_top", "units", "dark", "keys", "probe_out"} <= free
-    assert not free & {"hover", "pin", "undo", "reset", "optimise", "lecture", "lecture_next", "field_next"}
+    assert not free & {
+        "hover",
+        "pin",
+        "undo",
+        "reset",
+        "optimise",
+        "lecture",
+        "lecture_next",
+        "field_next",
+    }

@@ -115,28 +115,40 @@ class TestSteps:
         wanted = {name for part in step.text.parts for name in NAMED.findall(part)}
         assert wanted <= set(facts[step.name].numbers)
         for units in UNITS.values():
-            said = str((step_record(step, facts[step.name], units), answer_record(step, facts[step.name], units)))
+            said = str(
+                (
+                    step_record(step, facts[step.name], units),
+                    answer_record(step, facts[step.name], units),
+                )
+            )
             assert "nan" not in said
-            assert not any(mark in said for mark in (" kW", " hp", " %,", "\u2009kW"))  # A unit stays with its number.
+            # A unit stays with its number.
+            assert not any(mark in said for mark in (" kW", " hp", " %,", "\u2009kW"))
 
     @pytest.mark.slow
     def test_each_place_of_the_control_is_another_design_that_trims(
         self, step: LectureStep, facts: dict[str, StepFacts]
     ):
         stops = facts[step.name].stops
-        assert len({stop.inputs.design() for stop in stops}) == len(stops) == len(step.control.values)
+        assert (
+            len({stop.inputs.design() for stop in stops}) == len(stops) == len(step.control.values)
+        )
         for stop in (stops[0], stops[step.control.start], stops[-1]):
             assert solve(stop.inputs.design()).converged
             assert stop.against is None or solve(stop.against.design()).converged
 
     @pytest.mark.slow
-    def test_each_answer_can_be_told_from_the_others(self, step: LectureStep, facts: dict[str, StepFacts]):
+    def test_each_answer_can_be_told_from_the_others(
+        self, step: LectureStep, facts: dict[str, StepFacts]
+    ):
         assert len(set(step.text.options)) == len(step.text.options) == len(step.bounds) + 1
         assert list(step.bounds) == sorted(step.bounds)
         assert 0 <= facts[step.name].right < len(step.text.options)
 
     @pytest.mark.slow
-    def test_the_chart_has_a_dot_for_each_place(self, step: LectureStep, facts: dict[str, StepFacts]):
+    def test_the_chart_has_a_dot_for_each_place(
+        self, step: LectureStep, facts: dict[str, StepFacts]
+    ):
         """On its line, so that what is seen and what is drawn agree."""
         chart, stops = facts[step.name].chart, facts[step.name].stops
         for line in chart.lines:
@@ -173,12 +185,17 @@ def test_every_change_has_its_band_and_the_word_of_both():
     """In a large number as on the line, once it is known; its place is kept until then."""
     a, b = both("A wake that responds to loading")
     sure = doubt(b, a)
-    before, after = compared_quantities(b, a, SI), compared_quantities(b, a, SI, (doubt(a), sure), (-3.0, 4.0))
+    before, after = (
+        compared_quantities(b, a, SI),
+        compared_quantities(b, a, SI, (doubt(a), sure), (-3.0, 4.0)),
+    )
     changes = "total_change", "induced_change", "profile_change", "total_percent", "induced_percent"
     for name in changes:
         assert before[name].within == "\u00a0"
         band, word = after[name].within.removeprefix("±\u00a0").split(",\u00a0")
-        value, band = (float(text.split("\u00a0")[0].replace("−", "-")) for text in (after[name].value, band))
+        value, band = (
+            float(text.split("\u00a0")[0].replace("−", "-")) for text in (after[name].value, band)
+        )
         assert sureness(value, band) == word
     assert float(after["induced_percent"].within.split("\u00a0")[1]) == pytest.approx(
         100.0 * sure.part_bands["induced"] / a.power.induced, abs=0.06
@@ -200,14 +217,20 @@ class TestAnswers:
                  "piezoelectric_ply": 0}  # fmt: skip
         assert {name: found.right for name, found in facts.items()} == right
         within = {name: found.open for name, found in facts.items() if found.open}
-        assert within == {"two_segments": (0,), "power_or_vibration": (0,)}  # 0.4 ± 0.4 %; wakes differ in the sign.
+        # 0.4 ± 0.4 %; wakes differ in the sign.
+        assert within == {
+            "two_segments": (0,),
+            "power_or_vibration": (0,),
+        }
         (_, weak), (_, strong) = facts["fast_twist"].stops[1].dots
         assert weak < strong
 
     @pytest.mark.slow
     def test_what_an_answer_calls_saved_or_lost_has_its_band(self, facts: dict[str, StepFacts]):
         said = {**facts["hover_twist"].words(SI), **facts["reverse_flow"].words(SI)}
-        assert [("±" in said[name]) for name in ("induced_saving", "cost", "slow_cost")] == [True] * 3
+        assert [("±" in said[name]) for name in ("induced_saving", "cost", "slow_cost")] == [
+            True
+        ] * 3
 
     @pytest.mark.slow
     def test_numbers_are_those_of_solve(self, facts: dict[str, StepFacts]):
@@ -225,11 +248,16 @@ class TestAnswers:
                         off=None if inputs.reverse_flow else "reverse-flow",
                     )
                 )
-                for inputs in (step.begin(), compared_inputs(step.against, step.inputs, step.begin()))
+                for inputs in (
+                    step.begin(),
+                    compared_inputs(step.against, step.inputs, step.begin()),
+                )
             )
             for part in ("total", "induced", "profile", "tail"):
                 for name, solution in (("a", a), ("b", b)):
-                    assert numbers[f"{part}_{name}"].value == pytest.approx(getattr(solution.power, part), rel=1e-6)
+                    assert numbers[f"{part}_{name}"].value == pytest.approx(
+                        getattr(solution.power, part), rel=1e-6
+                    )
             changes = [numbers[f"{part}_change"].value for part in ("induced", "profile", "tail")]
             assert sum(changes) == pytest.approx(numbers["total_change"].value, abs=1.0)
         area, craft = facts["reverse_flow"].numbers["area"].value, make_design().rotor.blade
@@ -244,7 +272,12 @@ class TestAnswers:
         gains = [moving_twist(tuple(RUNGS), SPEEDS, inflow).gain for inflow in INFLOW_MODELS]
         numbers = found.numbers
         assert (numbers["gain_low"].value, numbers["gain_high"].value) == (min(gains), max(gains))
-        assert min(gains) <= numbers["gain_power"].value / numbers["fixed_power"].value <= max(gains) < 0.01
+        assert (
+            min(gains)
+            <= numbers["gain_power"].value / numbers["fixed_power"].value
+            <= max(gains)
+            < 0.01
+        )
 
     @pytest.mark.slow
     def test_moving_saves_what_the_trims_say(self, facts: dict[str, StepFacts]):
@@ -277,17 +310,26 @@ class TestAnswers:
         """Its mass at the power that a kilogram costs is more than what its twist saves."""
         found = facts["piezoelectric_ply"]
         numbers = found.numbers
-        heavy = rotor.make_design(mu=0.3, mass_kg=make_design().condition.mass + numbers["mass"].value)
+        heavy = rotor.make_design(
+            mu=0.3, mass_kg=make_design().condition.mass + numbers["mass"].value
+        )
         carried = rotor.solve(heavy).power.total - rotor.solve(make_design(mu=0.3)).power.total
         assert carried > numbers["gross"].value
         assert all("±" in numbers[name].words(SI) for name in ("gross", "cost", "here", "net_cost"))
-        for k, stop in enumerate(found.stops):  # Chart and large numbers are those of the design that is flown.
+        # Chart and large numbers are those of the design that is flown.
+        for k, stop in enumerate(found.stops):
             assert stop.actuator is not None
             drive = stop.actuator.drives[0]
             design = stop.inputs.design()
-            flown = solve(with_actuator(design, f"MFC_P1,drive={drive:g},crossed={stop.actuator.crossed:d}")).require()
+            flown = solve(
+                with_actuator(design, f"MFC_P1,drive={drive:g},crossed={stop.actuator.crossed:d}")
+            ).require()
             change = flown.power.total - solved(stop.inputs).power.total
-            assert [y for _, y in stop.dots][1] == pytest.approx(change, abs=1.0) == found.chart.lines[1].y[k]
+            assert (
+                [y for _, y in stop.dots][1]
+                == pytest.approx(change, abs=1.0)
+                == found.chart.lines[1].y[k]
+            )
             assert found.chart.band is not None
             low, high = (edge[k] for edge in found.chart.band)
             within = rotor.doubt(flown, solved(stop.inputs)).change_band
@@ -295,15 +337,18 @@ class TestAnswers:
             assert (low, high) == pytest.approx((change - within, change + within), abs=2.0)
             ends = np.array([flown.design.rotor.blade.root_cutout, 1.0])
             turn = np.diff(flown.design.twist(ends) - flown.design.jig(ends))[0]
-            assert float(words_of(stop.numbers, SI)["tip"].rstrip("°").replace("−", "-")) == pytest.approx(
-                np.degrees(turn), abs=0.2
-            )
+            assert float(
+                words_of(stop.numbers, SI)["tip"].rstrip("°").replace("−", "-")
+            ) == pytest.approx(np.degrees(turn), abs=0.2)
 
     @pytest.mark.slow
     def test_two_segments_are_near_the_best_of_their_kind(self, facts: dict[str, StepFacts]):
         step = BY_TITLE["What two segments add"]
         best = optimise(step.begin().design(), "two-segment-free")
-        assert solved(step.begin()).power.total < (1.0 + facts[step.name].numbers["flat"].value) * best.best.power
+        assert (
+            solved(step.begin()).power.total
+            < (1.0 + facts[step.name].numbers["flat"].value) * best.best.power
+        )
 
 
 def test_the_words_of_a_step_are_whole():
@@ -325,7 +370,11 @@ def test_a_sentence_waits_for_its_numbers():
 def test_an_answer_that_comes_as_the_lecture_ends_shows_nothing(monkeypatch: pytest.MonkeyPatch):
     sent: list[Any] = []
     context = Mock(held=False)
-    context.display.view, context.inputs.return_value, context.state.return_value = ViewState(), Inputs(), None
+    context.display.view, context.inputs.return_value, context.state.return_value = (
+        ViewState(),
+        Inputs(),
+        None,
+    )
     context.bridge.set.side_effect = lambda **parts: sent.append(parts["lecture"])
     panel = LecturePanel(context, Mock(), Mock(), Mock())
     panel._before = ScreenState(Inputs(), ViewState())
@@ -366,17 +415,25 @@ class TestBeside:
         against = compared_inputs(
             step.against, step.inputs, replace(step.inputs, inflow="local-momentum", linear=-17.0)
         )
-        assert against.design() == replace(step.against or Inputs(), inflow="local-momentum").design()
+        assert (
+            against.design() == replace(step.against or Inputs(), inflow="local-momentum").design()
+        )
 
     def test_the_twist_and_the_flight_are_the_users(self):
         step = BY_TITLE["What reverse flow costs"]
         flown = replace(step.inputs, advance_ratio=0.3, tip_loss=False)
-        assert compared_inputs(step.against, step.inputs, flown) == replace(flown, reverse_flow=False)
+        assert compared_inputs(step.against, step.inputs, flown) == replace(
+            flown, reverse_flow=False
+        )
 
     @pytest.mark.slow
-    def test_active_twist_is_what_differs_where_the_places_differ_by_it(self, facts: dict[str, StepFacts]):
+    def test_active_twist_is_what_differs_where_the_places_differ_by_it(
+        self, facts: dict[str, StepFacts]
+    ):
         stop = facts["power_or_vibration"].stops[0]
-        against = compared_inputs(stop.against, stop.inputs, replace(stop.inputs, advance_ratio=0.25))
+        against = compared_inputs(
+            stop.against, stop.inputs, replace(stop.inputs, advance_ratio=0.25)
+        )
         assert against.twist_per_rev == ()
         assert against.advance_ratio == 0.25
 

@@ -13,7 +13,15 @@ import pytest
 from explorer.model.inputs import LAWS, OPENING, TWISTS, Inputs, with_rotor
 from explorer.model.sliders import SLIDERS
 from explorer.model.stand import StandInputs
-from explorer.sharing.share import DESIGN, Address, code_of, design_from, inputs_from, parameter, with_parameter
+from explorer.sharing.share import (
+    DESIGN,
+    Address,
+    code_of,
+    design_from,
+    inputs_from,
+    parameter,
+    with_parameter,
+)
 from rotor.design.active_twist import Harmonic, read_harmonics
 from rotor.design.design import Design
 from rotor.design.twist import SplineTwist, SumTwist, TableTwist, parse_twist
@@ -40,7 +48,9 @@ def random_inputs(chance: random.Random) -> Inputs:
 
     def place(name: str) -> float:
         form = SLIDERS[name]
-        return round(form.low + form.step * chance.randint(0, round((form.high - form.low) / form.step)), 4)
+        return round(
+            form.low + form.step * chance.randint(0, round((form.high - form.low) / form.step)), 4
+        )
 
     inputs = Inputs(
         law=chance.choice(("builtin", *(law for law in LAWS if law != "optimised"))),
@@ -69,7 +79,9 @@ def random_inputs(chance: random.Random) -> Inputs:
         inputs = replace(other, law=law, given=inputs.given, built_inner=chance.choice((0.0, 3.0)))
         if inputs.aircraft.isolated:
             tilt = chance.choice((None, place("linear")))
-            inputs = replace(inputs, stand=StandInputs("wind-tunnel", "ct_over_sigma", 0.06, tilt), climb_m_s=0.0)
+            inputs = replace(
+                inputs, stand=StandInputs("wind-tunnel", "ct_over_sigma", 0.06, tilt), climb_m_s=0.0
+            )
     return replace(inputs, **_waves(chance)) if chance.random() < 0.3 else inputs
 
 
@@ -92,9 +104,13 @@ def _waves(chance: random.Random) -> dict[str, Any]:
 def _twist_from_a_file(chance: random.Random) -> SplineTwist | TableTwist | SumTwist:
     angles = tuple(chance.uniform(-0.2, 0.2) for _ in range(4))
     stations = (0.13, 0.4, 0.75, 1.0)
-    several = parse_twist(f"linear:{chance.randint(-9, 9)}+segments:-2,{chance.randint(-9, 9)}@0.5+quadratic:6,-14")
+    several = parse_twist(
+        f"linear:{chance.randint(-9, 9)}+segments:-2,{chance.randint(-9, 9)}@0.5+quadratic:6,-14"
+    )
     assert isinstance(several, SumTwist)
-    return chance.choice((SplineTwist(stations, angles), TableTwist(stations, angles, "table:mine.txt"), several))
+    return chance.choice(
+        (SplineTwist(stations, angles), TableTwist(stations, angles, "table:mine.txt"), several)
+    )
 
 
 def random_designs(count: int) -> Iterator[Design]:
@@ -124,21 +140,35 @@ def test_a_thousand_random_designs_come_back_from_a_file_and_an_address_that_the
         file = design_from_record(json.loads(json.dumps(design.to_dict())))
         for again in (design_from(parameter(query, DESIGN) or ""), file):
             assert code_of(again) == code
-            assert (again.models, again.rotor, again.preset) == (design.models, design.rotor, design.preset)
-            assert (again.active_twist, again.pitch_per_rev) == (design.active_twist, design.pitch_per_rev)
-            assert again.condition.advance_ratio == pytest.approx(design.condition.advance_ratio, rel=1e-9)
+            assert (again.models, again.rotor, again.preset) == (
+                design.models,
+                design.rotor,
+                design.preset,
+            )
+            assert (again.active_twist, again.pitch_per_rev) == (
+                design.active_twist,
+                design.pitch_per_rev,
+            )
+            assert again.condition.advance_ratio == pytest.approx(
+                design.condition.advance_ratio, rel=1e-9
+            )
             assert again.condition.mass == pytest.approx(design.condition.mass, rel=1e-9)
             assert again.condition.rotor_speed_percent == design.condition.rotor_speed_percent
-            assert again.condition.load_factor == pytest.approx(design.condition.load_factor, rel=1e-9)
+            assert again.condition.load_factor == pytest.approx(
+                design.condition.load_factor, rel=1e-9
+            )
             r = (0.2, 0.33, 0.5, 0.75, 0.9, 1.0)
-            assert again.twist(r) == pytest.approx(design.twist(r), abs=1e-7)  # To a millionth of a degree.
+            # To a millionth of a degree.
+            assert again.twist(r) == pytest.approx(design.twist(r), abs=1e-7)
     assert sums > 200
     chance = random.Random(20)
     assert {random_inputs(chance).law for _ in range(200)} == set(LAWS) - {"optimised"}
 
 
 def test_the_changed_twist_as_built_is_again_on_its_sliders():
-    inputs = replace(OPENING, built_inner=-2.0, built_outer=1.5, built_division=0.6, advance_ratio=0.25)
+    inputs = replace(
+        OPENING, built_inner=-2.0, built_outer=1.5, built_division=0.6, advance_ratio=0.25
+    )
     code = code_of(inputs.design())
     assert code == "1;uh60a~segments:-2,1.5@0.6;mu=0.25"
     assert inputs_from(code) == inputs

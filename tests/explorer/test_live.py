@@ -63,7 +63,9 @@ class TestPolynomials:
         here, power = made.family.here[None], made.solution.power
         assert made.at(made.power["total"], here)[0] == pytest.approx(power.total, rel=1e-9)
         for name in ("induced", "profile", "parasite", "tail"):
-            assert made.at(made.power[name], here)[0] == pytest.approx(getattr(power, name), rel=1e-3)
+            assert made.at(made.power[name], here)[0] == pytest.approx(
+                getattr(power, name), rel=1e-3
+            )
         parts = sum(coefficients for name, coefficients in made.power.items() if name != "total")
         assert np.allclose(parts, made.power["total"], rtol=0.0, atol=1e-6)
 
@@ -77,11 +79,15 @@ class TestPolynomials:
 
     def test_no_trim_within_the_sliders_needs_less_than_the_best(self, made: Fitted):
         values, best = made.best
-        assert best.power.total < min(trim.solution.power.total for trim in made.tested) + made.error
+        assert (
+            best.power.total < min(trim.solution.power.total for trim in made.tested) + made.error
+        )
         for value, handle in zip(values, made.family.handles, strict=True):
             assert handle.form.low <= value <= handle.form.high
 
-    def test_sliders_end_where_the_error_would_be_too_large(self, made: Fitted, monkeypatch: pytest.MonkeyPatch):
+    def test_sliders_end_where_the_error_would_be_too_large(
+        self, made: Fitted, monkeypatch: pytest.MonkeyPatch
+    ):
         monkeypatch.setattr(module, "TOLERANCE", 0.3 * made.error / made.solution.power.total)
         narrow = fitted(made.solution)
         assert narrow.error < 0.3 * made.error
@@ -110,21 +116,29 @@ def test_with_an_actuator_on_board_sliders_are_its_drives(concept: str):
     design = ActuatorInputs(concept=concept, drives=(50.0,) * 5).apply(bare)
     made = fitted(solve(design))
     here = made.family.design(made.family.here)
-    assert np.allclose(here.twist(np.linspace(0.2, 1.0, 9)), design.twist(np.linspace(0.2, 1.0, 9)), atol=1e-9)
-    assert made.at(made.power["total"], made.family.here[None])[0] == pytest.approx(made.solution.power.total)
+    assert np.allclose(
+        here.twist(np.linspace(0.2, 1.0, 9)), design.twist(np.linspace(0.2, 1.0, 9)), atol=1e-9
+    )
+    assert made.at(made.power["total"], made.family.here[None])[0] == pytest.approx(
+        made.solution.power.total
+    )
     driven = ActuatorInputs(concept=concept, drives=(-40.0, 80.0)).apply(bare)
     volts = (-200.0, 1200.0)[: len(made.family.handles)]
     exact = solve(driven).power.total
     x = made.family.scaled(volts)
     assert np.abs(x).max() <= 1.0
-    assert float(made.at(made.power["total"], x[None])[0]) == pytest.approx(exact, abs=made.error + 1.0)
+    assert float(made.at(made.power["total"], x[None])[0]) == pytest.approx(
+        exact, abs=made.error + 1.0
+    )
     page = live_html(made.solution)
     assert "with MFC P1 at 750" in page
     assert "The power of the drive is not included." in page
 
 
 def test_in_hover_and_in_other_units_it_is_made_as_well():
-    hover = live_html(solve(make_design(twist="linear:-12", hover=True)), units_of("Aviation", PLAIN.aircraft))
+    hover = live_html(
+        solve(make_design(twist="linear:-12", hover=True)), units_of("Aviation", PLAIN.aircraft)
+    )
     assert "in hover with twist " in hover
     assert UNITS["Aviation"].power[0].symbol in hover
     assert not WORDS.search(hover)
@@ -146,9 +160,14 @@ class TestFile:
     def test_only_its_own_scripts_may_run(self, page: str):
         policy = re.search(r'Content-Security-Policy" content="([^"]+)"', page)
         assert policy is not None
-        hashes = [base64.b64encode(hashlib.sha256(each.encode()).digest()).decode() for each in scripts_of(page)]
+        hashes = [
+            base64.b64encode(hashlib.sha256(each.encode()).digest()).decode()
+            for each in scripts_of(page)
+        ]
         allowed = " ".join(f"&#x27;sha256-{each}&#x27;" for each in hashes)
-        assert f"script-src {allowed};".replace("&#x27;", "'") in policy[1].replace("&#x27;", "'").replace("&#39;", "'")
+        assert f"script-src {allowed};".replace("&#x27;", "'") in policy[1].replace(
+            "&#x27;", "'"
+        ).replace("&#39;", "'")
         assert "connect-src 'none'" in policy[1].replace("&#x27;", "'").replace("&#39;", "'")
 
     def test_says_its_error_and_what_it_was_measured_with(self, made: Fitted, page: str):
@@ -162,7 +181,9 @@ class TestFile:
         PLAIN.save(design)
         assert command.main(["report", str(design), "--live", "--out", str(out)]) == 0
         assert capsys.readouterr().out.startswith(f"{out}: ")
-        model = re.search(r'id="model" type="application/json">(.*?)</script>', out.read_text("utf-8"), re.DOTALL)
+        model = re.search(
+            r'id="model" type="application/json">(.*?)</script>', out.read_text("utf-8"), re.DOTALL
+        )
         assert model is not None
         assert json.loads(model[1])["unit"] == "kW"
         assert command.main(["report", str(design), str(design), "--live"]) == 2

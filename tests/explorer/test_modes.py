@@ -17,7 +17,9 @@ from tests.tools.visitor import Visitor, arrived, ran
 
 MODES = "explore", "optimise", "actuator", "rotor", "lecture"
 """Of Actuate the view of the actuator and those of the rotor; the lecture goes to its end, which is in Actuate."""
-WALK = [MODES[k] for i in range(len(MODES)) for j in range(i + 1, len(MODES)) for k in (i, j)] + [MODES[0]]
+WALK = [MODES[k] for i in range(len(MODES)) for j in range(i + 1, len(MODES)) for k in (i, j)] + [
+    MODES[0]
+]
 """Each ordered pair once."""
 SECRET = "a-secret"
 DRIVEN = (77.0,) + (0.0,) * (MOST_SEGMENTS - 1)
@@ -31,7 +33,9 @@ def kilowatts(design: Design) -> float:
 def design_of(page: Page) -> Design:
     """What the sliders mean and, in Actuate, the voltages."""
     sliders = page.context.controls.inputs().design()
-    return page.actuator.inputs().apply(sliders) if page.context.layout.mode == "actuate" else sliders
+    return (
+        page.actuator.inputs().apply(sliders) if page.context.layout.mode == "actuate" else sliders
+    )
 
 
 def wrong(visitor: Visitor, page: Page, mode: str, look: str | None) -> dict[str, Any]:
@@ -48,19 +52,26 @@ def wrong(visitor: Visitor, page: Page, mode: str, look: str | None) -> dict[str
     right = {
         "mode": frame["bar"]["mode"] == mode,
         "look": look in (None, frame["views"]["now"]),
-        "line": speaks in {piece["control"]["name"] for piece in line["pieces"] if piece["control"]},
-        "power": not line["problem"] and abs(shown - kilowatts(design)) < 0.5 + 1e-3,  # To the digit shown.
-        "parts": seen == (parts if look == "actuator" else set()) | ({"dial"} if mode == "actuate" else set()),
+        "line": speaks
+        in {piece["control"]["name"] for piece in line["pieces"] if piece["control"]},
+        "power": not line["problem"]
+        and abs(shown - kilowatts(design)) < 0.5 + 1e-3,  # To the digit shown.
+        "parts": seen
+        == (parts if look == "actuator" else set()) | ({"dial"} if mode == "actuate" else set()),
         "verdict": card == msgspec.json.decode(msgspec.json.encode(verdict)),
     }
-    return {name: (shown, kilowatts(design), card, seen) for name, same in right.items() if not same}
+    return {
+        name: (shown, kilowatts(design), card, seen) for name, same in right.items() if not same
+    }
 
 
 async def told(visitor: Visitor, what: Callable[[dict[str, Any]], bool]) -> None:
     await visitor.until(lambda: what(visitor.frame))
 
 
-async def right(visitor: Visitor, page: Page, mode: str = "explore", look: str | None = None) -> None:
+async def right(
+    visitor: Visitor, page: Page, mode: str = "explore", look: str | None = None
+) -> None:
     try:
         await visitor.until(lambda: not wrong(visitor, page, mode, look))
     except TimeoutError:
@@ -95,24 +106,34 @@ def test_every_mode_after_every_other_shows_the_power_of_the_design(app: App):
     async def visit() -> None:
         presenter = await arrived(app.address, kept={PRESENT: SECRET}, page="one")
         follower = await arrived(app.address, query=f"?follow={follow_name(SECRET)}")
-        both = tuple(zip((presenter, follower), [session.page for session in app.sessions], strict=True))
+        both = tuple(
+            zip((presenter, follower), [session.page for session in app.sessions], strict=True)
+        )
         (_, leader), (_, led) = both
         for k, place in enumerate(WALK):
             mode, look = await go(presenter, place, ("3d", "disk", "side")[k % 3])
-            flown = look == "actuator"  # Once a flight is known, the voltages follow it until Actuate is left.
+            # Once a flight is known, the voltages follow it until Actuate is left.
+            flown = look == "actuator"
             await presenter.press(
-                *(("fly", 1.0 + 0.06 * k) if flown else ("slide", ["advance_ratio", 0.1 + 0.005 * k]))
+                *(
+                    ("fly", 1.0 + 0.06 * k)
+                    if flown
+                    else ("slide", ["advance_ratio", 0.1 + 0.005 * k])
+                )
             )
             for visitor, page in both:
                 await right(visitor, page, mode, look)
             await follower.until(lambda: design_of(led) == design_of(leader))
         await presenter.close()
-        await follower.until(lambda: follower.text("presentation").startswith("The presenter has left"), 10.0)
+        await follower.until(
+            lambda: follower.text("presentation").startswith("The presenter has left"), 10.0
+        )
         await follower.press("slide", ["advance_ratio", 0.3])  # The page is the follower's.
         await follower.until(lambda: led.context.controls.inputs().advance_ratio == 0.3)
         await right(follower, led)
         again = await arrived(app.address, kept={PRESENT: SECRET}, page="two")
-        await follower.until(lambda: not follower.text("presentation"))  # What was changed meanwhile stays.
+        # What was changed meanwhile stays.
+        await follower.until(lambda: not follower.text("presentation"))
         assert led.context.controls.inputs().advance_ratio == 0.3
         for visitor in (again, follower):
             await visitor.close()
@@ -130,13 +151,16 @@ def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(ap
         await told(visitor, lambda frame: frame.get("flight") is not None)
         await visitor.move("Voltage [%]", 77.0)
         await visitor.until(lambda: page.actuator.inputs().drives == DRIVEN)
-        await visitor.idle(wholly=False)  # What moves by hand is no longer stopped: that has been done.
+        # What moves by hand is no longer stopped: that has been done.
+        await visitor.idle(wholly=False)
         await visitor.press("state", "stopped")
         await visitor.press("fly", 3.0)
         await told(visitor, lambda frame: frame["flight"]["at"] == 3.0)
         for view in ("disk", "actuator"):
             await visitor.press("view", view)
-            await told(visitor, lambda frame, out=view == "actuator": (frame["flight"] is not None) == out)
+            await told(
+                visitor, lambda frame, out=view == "actuator": (frame["flight"] is not None) == out
+            )
         assert visitor.frame["flight"]["state"] == "stopped"
         tip = visitor.frame["flight"]["tip"]
         await visitor.press("state", "set")
@@ -145,13 +169,20 @@ def test_the_end_of_the_lecture_and_of_a_stop_give_back_what_the_hand_had_set(ap
         await visitor.press("view", "disk")
         await told(visitor, lambda frame: frame["views"]["now"] == "disk")
         before = page._views.on_screen()
-        assert (before.mode, before.look, before.hand.actuator.drives) == ("actuate", "disk", DRIVEN)
+        assert (before.mode, before.look, before.hand.actuator.drives) == (
+            "actuate",
+            "disk",
+            DRIVEN,
+        )
         await to_the_last_step(visitor)
         assert page.actuator.inputs().drives != DRIVEN
         await visitor.press("lecture", "end")
         await visitor.until(lambda: page._views.on_screen() == before)
         await right(visitor, page, "actuate", "disk")
-        assert abs(kilowatts(design_of(page)) - kilowatts(page.context.controls.inputs().design())) > 1.0
+        assert (
+            abs(kilowatts(design_of(page)) - kilowatts(page.context.controls.inputs().design()))
+            > 1.0
+        )
         for mode in ("optimise", "explore"):  # Sliders, link and search know no voltage.
             await visitor.press("mode", mode)
             await right(visitor, page, mode)

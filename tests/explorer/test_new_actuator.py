@@ -13,7 +13,14 @@ import explorer
 import rotor
 from explorer.model.actuator_inputs import ActuatorInputs
 from explorer.model.inputs import Inputs
-from explorer.picture.actuator_drawings import DRAWINGS, BladePart, Drawing, PieceStyle, side_line, stations
+from explorer.picture.actuator_drawings import (
+    DRAWINGS,
+    BladePart,
+    Drawing,
+    PieceStyle,
+    side_line,
+    stations,
+)
 from explorer.picture.lifted_picture import lifted_picture
 from explorer.views.actuator import ACTUATOR, actuator_titles
 from explorer.views.line import line_text
@@ -49,10 +56,14 @@ class ServoFlap(Actuator):
     def mode(self) -> str:
         return f"servos, {self.moment:.0f} N·m"
 
-    def moments(self, moment: float, compliance: Array, lengths: Array, placement: Placement) -> Array:
+    def moments(
+        self, moment: float, compliance: Array, lengths: Array, placement: Placement
+    ) -> Array:
         return np.full(len(lengths), placement.plies * self.moment)
 
-    def masses(self, placement: Placement, blades: int, skin_area: float, length: float) -> MassBreakdown:
+    def masses(
+        self, placement: Placement, blades: int, skin_area: float, length: float
+    ) -> MassBreakdown:
         return MassBreakdown(blades, placement.plies * self.mass)
 
 
@@ -76,23 +87,50 @@ INPUTS = Inputs(advance_ratio=0.2, elements=12, azimuths=24)
 FLAPS = ActuatorInputs(actuator="servo_flap", plies=2, drives=(40.0,) * 5)
 
 
-def test_two_pieces_serve_command_tables_form_verdict_and_picture(capsys: pytest.CaptureFixture[str]):
+def test_two_pieces_serve_command_tables_form_verdict_and_picture(
+    capsys: pytest.CaptureFixture[str],
+):
     """By hand: 40 % of 5° is 2°; four blades with two flaps of 25 kg each gain 200 kg."""
-    assert main(["actuator", "--actuator", "servo_flap", "--json", "--elements", "12", "--azimuths", "24"]) == 0
+    assert (
+        main(
+            [
+                "actuator",
+                "--actuator",
+                "servo_flap",
+                "--json",
+                "--elements",
+                "12",
+                "--azimuths",
+                "24",
+            ]
+        )
+        == 0
+    )
     record = json.loads(capsys.readouterr().out)
-    assert (record["actuator"], record["added_mass_kg"], record["voltages_v"]) == ("servo_flap", 200.0, [])
+    assert (record["actuator"], record["added_mass_kg"], record["voltages_v"]) == (
+        "servo_flap",
+        200.0,
+        [],
+    )
     assert "so this flap does not pay" in record["message"]
     assert {"temperature", "mass"} <= {limit["name"] for limit in record["limits"]}
     assert "Servo flap: assumed values: moment." in record["caveats"]
     row = dict(zip(table_5_1().columns, table_5_1().rows[-1], strict=True))
-    assert (row["actuator"], row["mode"], row["voltage V"]) == ("servo_flap", "servos, 300 N·m", "–")
+    assert (row["actuator"], row["mode"], row["voltage V"]) == (
+        "servo_flap",
+        "servos, 300 N·m",
+        "–",
+    )
 
     now = actuate(INPUTS, actuator=FLAPS)
     shown = ACTUATOR.view(now)
     form = shown["actuator.form"]
     assert actuator_titles()["servo_flap"] == "servo flap: servos, 300 N·m"
     assert (form.labels["plies"], form.labels["drive 0"]) == ("Flaps", "Deflection [%]")
-    assert [name for name in ("plies", "span", "chord", "crossed") if form.seen[name]] == ["plies", "span"]
+    assert [name for name in ("plies", "span", "chord", "crossed") if form.seen[name]] == [
+        "plies",
+        "span",
+    ]
     assert "5 °" in shown["actuator.bar"]
     assert "tip twist at +2 °" in shown["actuator.now"]
     verdict = asked(ACTUATOR, now)["lean_verdict"].run()
@@ -106,7 +144,10 @@ def test_two_pieces_serve_command_tables_form_verdict_and_picture(capsys: pytest
 
 def test_its_twist_is_that_of_a_tube_of_the_same_moment():
     """At rest, twist over moment is the compliance of the blade, whatever moves it."""
-    tubes, flaps = (ActuatorInputs(actuator=id).installed(INPUTS.design().rotor) for id in ("SMA_tube", "servo_flap"))
+    tubes, flaps = (
+        ActuatorInputs(actuator=id).installed(INPUTS.design().rotor)
+        for id in ("SMA_tube", "servo_flap")
+    )
     assert flaps.moment == 600.0
     assert_allclose(flaps.rest_shapes / 600.0, tubes.rest_shapes / tubes.moment, rtol=1e-9)
 
@@ -114,8 +155,17 @@ def test_its_twist_is_that_of_a_tube_of_the_same_moment():
 def test_kinds_are_named_only_where_they_are_made_listed_and_drawn():
     """Elsewhere they answer for themselves: a further kind touches no other file."""
     own = {"ply.py", "tube.py", "laminate.py"}
-    listed = {"catalogue.py", "__init__.py", "actuator_drawings.py", "actuation.py"}  # The last: chapter 5 is on plies.
+    # The last: chapter 5 is on plies.
+    listed = {
+        "catalogue.py",
+        "__init__.py",
+        "actuator_drawings.py",
+        "actuation.py",
+    }
     for package in (rotor, explorer):
         for path in Path(str(package.__file__)).parent.rglob("*.py"):
-            if any(kind in path.read_text(encoding="utf-8") for kind in ("PiezoPly", "TorqueTube", "ExtensionTwist")):
+            if any(
+                kind in path.read_text(encoding="utf-8")
+                for kind in ("PiezoPly", "TorqueTube", "ExtensionTwist")
+            ):
                 assert path.name in own | listed, path

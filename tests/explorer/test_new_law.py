@@ -129,5 +129,7 @@ def test_a_cubic_is_a_class_and_a_row(tmp_path: Path):
     tests = [f"tests/{name}" for name in HELD_BY_OTHER_TESTS]
     environment = os.environ | {"PYTHONPATH": str(tmp_path)}
     words = [sys.executable, *command, *tests]
-    done = subprocess.run(words, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        words, cwd=tmp_path, env=environment, capture_output=True, text=True, check=False
+    )
     assert done.returncode == 0, done.stdout

@@ -41,7 +41,9 @@ def opened(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 @pytest.mark.parametrize("key", ["uh60a", "s61"])
 def test_the_page_starts_on_the_design(opened: list[str], key: str):
-    design = rotor.make_design(rotor=key, twist="segments:-12,-4@0.5", mu=0.25, mass_kg=8000, altitude_m=500)
+    design = rotor.make_design(
+        rotor=key, twist="segments:-12,-4@0.5", mu=0.25, mass_kg=8000, altitude_m=500
+    )
     page = explorer.show(design)
     (app,) = FakeApp.made
     assert app.start.design() == design
@@ -85,7 +87,10 @@ def test_on_jupyterhub_a_sentence_says_how_the_page_is_reached(
 
 @pytest.mark.parametrize("named", ["hub.example", "https://hub.example/hub/home"])
 def test_on_a_jupyterhub_that_is_named_the_page_is_inline_by_its_path(
-    named: str, opened: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    named: str,
+    opened: list[str],
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
 ):
     """As jupyter-server-proxy passes it on; a path is of the hub's own origin, so the frame is allowed."""
     monkeypatch.setenv("JUPYTERHUB_SERVICE_PREFIX", "/user/ann/")

@@ -15,7 +15,14 @@ from numpy.testing import assert_allclose
 
 from explorer.charts import schedule_view
 from explorer.charts.concept import concept_picture
-from explorer.charts.power_map import PowerMap, default_axes, drawing, least_words, place_on, refined
+from explorer.charts.power_map import (
+    PowerMap,
+    default_axes,
+    drawing,
+    least_words,
+    place_on,
+    refined,
+)
 from explorer.charts.schedule_view import ScheduleProgress
 from explorer.model import search_run as mission
 from explorer.model.inputs import baseline_of
@@ -28,7 +35,15 @@ from explorer.widgets.optimise.map_panel import MapPanel
 from explorer.workers.background import WorkRecord
 from explorer.workers.solver import MapLevel, MapTask, ScheduleTask, SearchTask, StartPower
 from rotor import doubt, make_design, solve
-from rotor.optimisation import CONCEPTS, Progress, SchedulePlan, Search, WeightedCondition, at_condition, run_search
+from rotor.optimisation import (
+    CONCEPTS,
+    Progress,
+    SchedulePlan,
+    Search,
+    WeightedCondition,
+    at_condition,
+    run_search,
+)
 from rotor.optimisation.results import ParameterBand
 from rotor.optimisation.results import SearchStatus as Status
 from rotor.support.chart import Points
@@ -51,10 +66,16 @@ def no_stop() -> bool:
 def begun(starts: int, *reports: object, **asked: Any) -> SearchRun:
     """A search from so many starts, fewer than those of the page, that has reported so much."""
     search = replace(SearchRequest(**asked).search(quick(), mission.legs), starts=starts)
-    return SearchRun(WorkRecord(SearchTask(search, baseline_of(quick()), "UH-60A as built"), "running", 0, reports))
+    return SearchRun(
+        WorkRecord(
+            SearchTask(search, baseline_of(quick()), "UH-60A as built"), "running", 0, reports
+        )
+    )
 
 
-STEP = Progress("search", 0, 2, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1)
+STEP = Progress(
+    "search", 0, 2, 1, (0.0, 0.0, 0.5), "linear:0", 850e3, True, (0.0, 0.0, 0.5), 850e3, 0.1
+)
 """The first design of the first of two starts."""
 
 
@@ -98,7 +119,9 @@ class TestSearchRun:
             assert MapPanel._line(panel) == words
 
     def test_a_broken_process_keeps_the_best(self, run: SearchRun):
-        half = replace(run.record, reports=run.record.reports[: len(run.record.reports) // 2], result=None)
+        half = replace(
+            run.record, reports=run.record.reports[: len(run.record.reports) // 2], result=None
+        )
         broken = SearchRun(half.then(JobFailed("The worker process ended unexpectedly.")))
         assert broken.best is not None
         assert broken.best == run.frames[len(broken.frames) - 1]
@@ -107,7 +130,9 @@ class TestSearchRun:
 
 
 class TestWords:
-    def test_the_optimum_is_told_with_its_band_and_the_change_against_the_start(self, run: SearchRun):
+    def test_the_optimum_is_told_with_its_band_and_the_change_against_the_start(
+        self, run: SearchRun
+    ):
         words = search_text.result(run) + search_text.details(run) + search_text.standing(run)
         for part in ("Inboard rate", "Outboard rate", "Done"):
             assert part in words
@@ -123,10 +148,19 @@ class TestWords:
 
     @pytest.mark.parametrize(
         ("half", "rate", "place"),
-        [(0.04, "−8.3 … −8.2", "0.45 … 0.46"), (3.0, "−11 … −5", "0.2 … 0.8"), (0.4, "−8.7 … −7.9", "0.42 … 0.50")],
+        [
+            (0.04, "−8.3 … −8.2", "0.45 … 0.46"),
+            (3.0, "−11 … −5", "0.2 … 0.8"),
+            (0.4, "−8.7 … −7.9", "0.42 … 0.50"),
+        ],
     )
-    def test_a_range_has_the_digits_that_it_allows(self, run: SearchRun, half: float, rate: str, place: str):
-        free, values = CONCEPTS["two-segment-free"], (math.radians(-8.26), math.radians(-1.0), 0.456)
+    def test_a_range_has_the_digits_that_it_allows(
+        self, run: SearchRun, half: float, rate: str, place: str
+    ):
+        free, values = (
+            CONCEPTS["two-segment-free"],
+            (math.radians(-8.26), math.radians(-1.0), 0.456),
+        )
         bands = tuple(
             ParameterBand(each.name, value - within, value + within)
             for each, value in zip(free.parameters, values, strict=True)
@@ -175,7 +209,8 @@ class TestMission:
         assert len(mission.legs(quick())) == 6
 
     @pytest.mark.parametrize(
-        "part", ["fast", "0.5:1", "-0.1:1", "0.2:100", "0.2:-1", "nan:1", "0.2:nan", "0.2:1:2", "0,2"]
+        "part",
+        ["fast", "0.5:1", "-0.1:1", "0.2:100", "0.2:-1", "nan:1", "0.2:nan", "0.2:1:2", "0,2"],
     )
     def test_what_is_no_leg_is_named_with_the_remedy(self, part: str):
         said = f"The mission has {part.split(',')[-1]!r}: write each leg as advance ratio 0 to 0.45 and hours 0 to 99"
@@ -193,7 +228,9 @@ class TestMission:
 @pytest.fixture(scope="module")
 def levels() -> tuple[MapTask, list[MapLevel]]:
     design, concept = quick(), CONCEPTS["two-segment-free"]
-    task = MapTask(design, concept, at_condition(design), default_axes(concept), (-0.2, -0.15, 0.5), (2, 4))
+    task = MapTask(
+        design, concept, at_condition(design), default_axes(concept), (-0.2, -0.15, 0.5), (2, 4)
+    )
     told: list[Any] = []
     assert task.run(told.append, no_stop)
     done = [each for each in told if isinstance(each, float)]
@@ -211,14 +248,20 @@ def drawn(levels: tuple[MapTask, list[MapLevel]]) -> PowerMap:
 
 
 class TestMap:
-    def test_coarse_then_fine_and_the_fine_holds_the_coarse(self, levels: tuple[MapTask, list[MapLevel]]):
+    def test_coarse_then_fine_and_the_fine_holds_the_coarse(
+        self, levels: tuple[MapTask, list[MapLevel]]
+    ):
         task, (coarse, fine) = levels
         assert [len(level.powers) for level in (coarse, fine)] == [3, 5]
-        assert np.array(fine.powers, dtype=float)[::2, ::2] == pytest.approx(np.array(coarse.powers, dtype=float))
+        assert np.array(fine.powers, dtype=float)[::2, ::2] == pytest.approx(
+            np.array(coarse.powers, dtype=float)
+        )
         assert not task.run(lambda item: None, lambda: True)  # Stopped between two rows.
 
     @pytest.mark.parametrize("cell", [(1, 2), (3, 1), (0, 4)])
-    def test_each_point_is_the_least_over_what_is_held(self, drawn: PowerMap, cell: tuple[int, int]):
+    def test_each_point_is_the_least_over_what_is_held(
+        self, drawn: PowerMap, cell: tuple[int, int]
+    ):
         """Against trims on a fine line of the third parameter."""
         row, column = cell
         power, (_, *others) = drawn.powers[row, column], drawn.values[row][column]
@@ -238,7 +281,10 @@ class TestMap:
         level = told[-1]
         for row, column in ((1, 5), (2, 5), (7, 1)):
             inboard, outboard, _ = level.values[row][column]
-            along = [solve(concept.apply(design, (inboard, outboard, at))) for at in np.linspace(0.25, 0.92, 24)]
+            along = [
+                solve(concept.apply(design, (inboard, outboard, at)))
+                for at in np.linspace(0.25, 0.92, 24)
+            ]
             least = min(one.power.total for one in along if one.converged)
             assert level.powers[row][column] < least * (1.0 + 1e-4)
 
@@ -252,8 +298,12 @@ class TestMap:
         x, y, power = drawn.least
         inboard, outboard, place = drawn.lowest[1]
         concept = drawn.task.concept
-        assert solve(concept.apply(drawn.task.design, drawn.lowest[1])).power.total == pytest.approx(power, rel=1e-7)
-        rates = f"Inboard {math.degrees(inboard):.1f} °/R, Outboard {math.degrees(outboard):.1f} °/R".replace("-", "−")
+        assert solve(
+            concept.apply(drawn.task.design, drawn.lowest[1])
+        ).power.total == pytest.approx(power, rel=1e-7)
+        rates = f"Inboard {math.degrees(inboard):.1f} °/R, Outboard {math.degrees(outboard):.1f} °/R".replace(
+            "-", "−"
+        )
         said = least_words(drawn, SI)
         assert said.startswith(f"Least {SI.watts(power)} at {rates}, Break point {place:.2f} R.")
         assert ("lies at the bound" in said) == (min(x, 1.0 - x, y, 1.0 - y) < 1e-6)
@@ -267,11 +317,16 @@ class TestMap:
         assert picture.find(".//g[@data-map]/image") is not None
         assert place_on(drawn, drawn.at(0.5, 0.25).twist) == pytest.approx((0.5, 0.25), abs=1e-6)
         assert place_on(drawn, make_design(twist="builtin").twist) is None
-        assert ET.fromstring(drawing(drawn, make_design(twist="builtin").twist)).find(".//circle") is None
+        assert (
+            ET.fromstring(drawing(drawn, make_design(twist="builtin").twist)).find(".//circle")
+            is None
+        )
         dot = picture.find(".//circle")
         assert float(dot.attrib["cx"]) == pytest.approx(165.0, abs=0.1)
         assert float(dot.attrib["cy"]) == pytest.approx(148.5, abs=0.1)
-        off = ET.fromstring(drawing(drawn, make_design(twist="quadratic:-10,4").twist)).find(".//circle")
+        off = ET.fromstring(drawing(drawn, make_design(twist="quadratic:-10,4").twist)).find(
+            ".//circle"
+        )
         assert off is None or off.attrib["fill"] == "none"  # It has no place in the plane.
         assert ET.fromstring(drawing(drawn, None)).find(".//circle") is None
 
@@ -291,7 +346,9 @@ def test_the_bar_moves_with_starts_and_designs():
 
 
 def test_a_design_beyond_a_limit_is_not_the_best():
-    run = begun(1, StartPower(860e3), STEP, replace(STEP, evaluation=2, power=800e3, feasible=False))
+    run = begun(
+        1, StartPower(860e3), STEP, replace(STEP, evaluation=2, power=800e3, feasible=False)
+    )
     assert run.best.power == 850e3
     assert SI.watts(850e3) in search_text.headline(run)
 
@@ -326,14 +383,20 @@ def progress() -> ScheduleProgress:
         WeightedCondition(replace(design.condition, advance_ratio=mu), hours)
         for mu, hours in ((0.3, 0.5), (0.0, 1.0), (0.15, 2.0))
     )
-    task, reports = ScheduleTask(SchedulePlan(design, (CONCEPTS["linear"],), legs, starts=1)), list[object]()
+    task, reports = (
+        ScheduleTask(SchedulePlan(design, (CONCEPTS["linear"],), legs, starts=1)),
+        list[object](),
+    )
     assert task.run(reports.append, lambda: False).complete
     return ScheduleProgress.of(WorkRecord(task, "running", 0, tuple(reports)))
 
 
 class TestSchedule:
     def test_charts_and_table(self, progress: ScheduleProgress):
-        twists, savings = schedule_view.twist_chart(progress, None), schedule_view.saving_chart(progress, None)
+        twists, savings = (
+            schedule_view.twist_chart(progress, None),
+            schedule_view.saving_chart(progress, None),
+        )
         assert savings is not None
         assert twists is not None
         assert [one.label for one in twists.series] == ["hover", "", "fast", "fixed"]
@@ -342,14 +405,24 @@ class TestSchedule:
         points = savings.series[0]
         assert isinstance(points, Points)
         order = (1, 2, 0)  # By speed.
-        bands = [sure.change_band_percent for leg in order if (sure := progress.doubts(leg)[1]) is not None]
+        bands = [
+            sure.change_band_percent
+            for leg in order
+            if (sure := progress.doubts(leg)[1]) is not None
+        ]
         assert_allclose(points.scatter, np.array(bands, dtype=float))
         empty = ScheduleProgress(progress.plan)
-        assert schedule_view.twist_chart(empty, None) is schedule_view.saving_chart(empty, None) is None
+        assert (
+            schedule_view.twist_chart(empty, None)
+            is schedule_view.saving_chart(empty, None)
+            is None
+        )
         table = schedule_view.table(progress)
         assert "Variable twist, beyond that" in table
         assert len(re.findall(r">[\d.]+ ± [\d.]+ kW: \w+<", table)) == 2
-        legs = re.findall(r'<span( class="[^"]*")?>([\d.−]+) ± ([\d.]+)<br/?><span class="rx-small">(\w+)<', table)
+        legs = re.findall(
+            r'<span( class="[^"]*")?>([\d.−]+) ± ([\d.]+)<br/?><span class="rx-small">(\w+)<', table
+        )
         assert len(legs) == 6
         for colour, saved, band, word in legs:
             assert word == sureness(float(saved.replace("−", "-")), float(band))
@@ -359,7 +432,9 @@ class TestSchedule:
         assert "Moving" not in schedule_view.table(ScheduleProgress(progress.plan))
 
     def test_legs_to_come_are_not_drawn(self, progress: ScheduleProgress):
-        half = ScheduleProgress(progress.plan, tuple(cell for cell in progress.cells if cell.condition == 0))
+        half = ScheduleProgress(
+            progress.plan, tuple(cell for cell in progress.cells if cell.condition == 0)
+        )
         whole, drawn = (schedule_view.saving_chart(one, None) for one in (progress, half))
         assert drawn is not None
         assert whole is not None
@@ -374,11 +449,17 @@ class TestSchedule:
         for k, row in enumerate(rows[:3]):
             condition = progress.plan.conditions[k].flight
             twisted = replace(make_design(twist=row["twist"], models=UNIFORM), condition=condition)
-            assert float(row["best_kw"]) == pytest.approx(solve(twisted).power.total / 1e3, abs=2e-3)
+            assert float(row["best_kw"]) == pytest.approx(
+                solve(twisted).power.total / 1e3, abs=2e-3
+            )
             apart = 100.0 * (1.0 - float(row["fixed_kw"]) / float(row["as_it_is_kw"]))
             assert row["fixed_sureness"] == sureness(apart, float(row["fixed_doubt_percent"]))
-            assert row["sureness"] == sureness(float(row["saving_percent"]), float(row["saving_doubt_percent"]))
+            assert row["sureness"] == sureness(
+                float(row["saving_percent"]), float(row["saving_doubt_percent"])
+            )
         leg = progress.plan.conditions[0]
-        climbing = replace(progress.plan, conditions=(replace(leg, flight=replace(leg.flight, climb_speed=2.5)),))
+        climbing = replace(
+            progress.plan, conditions=(replace(leg, flight=replace(leg.flight, climb_speed=2.5)),)
+        )
         text = schedule_view.csv_of(ScheduleProgress(climbing)).decode()
         assert next(csv.DictReader(io.StringIO(text)))["climb_m_s"] == "2.5"

@@ -31,7 +31,11 @@ LENGTH = Call(len, ("four",))
 
 def shown(now: PageState) -> Mapping[str, Any]:
     """A part that follows the speed, a text that follows the answer, and a part that stays."""
-    return {"power": now.inputs.advance_ratio, "notice": "", "words": now.answers.get(LENGTH, "computing")}
+    return {
+        "power": now.inputs.advance_ratio,
+        "notice": "",
+        "words": now.answers.get(LENGTH, "computing"),
+    }
 
 
 def pressed(now: PageState, value: Any) -> tuple[Effect, ...]:
@@ -51,7 +55,9 @@ def asked(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, tuple[Call, ...], 
     """What is asked of worker processes; the clock stands still."""
     all_asked: list[tuple[int, tuple[Call, ...], float]] = []
     monkeypatch.setattr("explorer.views.panel_updater.time", SimpleNamespace(monotonic=lambda: 7.0))
-    monkeypatch.setattr(PoolAnswers, "ask", lambda self, *how: all_asked.append((self._urgency, *how)))
+    monkeypatch.setattr(
+        PoolAnswers, "ask", lambda self, *how: all_asked.append((self._urgency, *how))
+    )
     return all_asked
 
 
@@ -59,7 +65,10 @@ def test_only_what_changed_is_sent():
     page = page_of(Panel(shown))
     page.follow(NOW)
     page.follow(NOW)
-    assert (page.bridge.sent, page.words) == ([{"power": OPENING.advance_ratio, "notice": ""}], ["computing"])
+    assert (page.bridge.sent, page.words) == (
+        [{"power": OPENING.advance_ratio, "notice": ""}],
+        ["computing"],
+    )
     page.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1), answers={LENGTH: "4"}))
     assert (page.bridge.sent[1:], page.words) == ([{"power": 0.1}], ["computing", "4"])
 
@@ -67,7 +76,9 @@ def test_only_what_changed_is_sent():
 def test_only_panels_that_are_seen_are_called(asked: list[Any]):
     """The parts of a hidden one are sent as absent, once; what it had asked is asked no longer. Opened again, one is
     whole."""
-    panel = Panel(shown, lambda ui: ui.drawer == "details", lambda now: (Questions(4, (LENGTH,), 0.2),))
+    panel = Panel(
+        shown, lambda ui: ui.drawer == "details", lambda now: (Questions(4, (LENGTH,), 0.2),)
+    )
     page = page_of(panel)
     page.follow(NOW)
     assert (page.bridge.sent, asked) == ([], [])
@@ -83,11 +94,15 @@ def test_only_panels_that_are_seen_are_called(asked: list[Any]):
     assert page.words == ["computing", 4, "computing"]
 
 
-def test_a_question_waits_only_as_long_as_hands_have_not_been_still(asked: list[Any], monkeypatch: pytest.MonkeyPatch):
+def test_a_question_waits_only_as_long_as_hands_have_not_been_still(
+    asked: list[Any], monkeypatch: pytest.MonkeyPatch
+):
     """Opened on a page at rest, it is worked on at once; what lifts the blade out is no hand."""
     clock = iter((7.0, 7.05, 9.0, 9.1, 9.2))
     page = page_of(Panel(shown, asks=lambda now: (Questions(4, (LENGTH,), 0.2),)))
-    monkeypatch.setattr("explorer.views.panel_updater.time", SimpleNamespace(monotonic=lambda: next(clock)))
+    monkeypatch.setattr(
+        "explorer.views.panel_updater.time", SimpleNamespace(monotonic=lambda: next(clock))
+    )
     page.follow(NOW)
     page.follow(replace(NOW, ui=OpenPanels(lifted=True)))
     page.follow(replace(NOW, inputs=replace(OPENING, advance_ratio=0.1)))
@@ -108,7 +123,9 @@ def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():
     assert page.done == [SetGrabbed(False)]
 
 
-def test_answers_are_those_of_every_page_and_failures_those_of_this_one(monkeypatch: pytest.MonkeyPatch):
+def test_answers_are_those_of_every_page_and_failures_those_of_this_one(
+    monkeypatch: pytest.MonkeyPatch,
+):
     page = page_of(Panel(shown, asks=lambda now: (Questions(4, (LENGTH,), 60.0),)))
     page.follow(NOW)
     assert LENGTH not in page.updater.answers()
@@ -141,7 +158,9 @@ class TestWork:
     def page(self, steps: list[str]) -> PanelPage:
         """Of two panels: one whose work comes late, one in a drawer, whose work comes soon."""
 
-        def panel(name: str, soon: bool, seen: Callable[[OpenPanels], bool] = lambda ui: True) -> Panel:
+        def panel(
+            name: str, soon: bool, seen: Callable[[OpenPanels], bool] = lambda ui: True
+        ) -> Panel:
             def works(now: PageState) -> tuple[PanelWork, ...]:
                 return (counting(name, now.inputs.advance_ratio, soon, steps),)
 
@@ -151,11 +170,15 @@ class TestWork:
 
             return Panel(view, seen, works=works)
 
-        page = page_of(panel("strip", False), panel("power", True, lambda ui: ui.drawer == "details"))
+        page = page_of(
+            panel("strip", False), panel("power", True, lambda ui: ui.drawer == "details")
+        )
         page.now = replace(NOW, ui=OpenPanels(drawer="details"))
         return page
 
-    def test_what_comes_soon_comes_first_and_every_step_is_shown(self, page: PanelPage, steps: list[str]):
+    def test_what_comes_soon_comes_first_and_every_step_is_shown(
+        self, page: PanelPage, steps: list[str]
+    ):
         deque(page.updater.work(soon=True))
         assert steps == ["power"] * 3
         deque(page.updater.work(soon=False))
@@ -166,14 +189,19 @@ class TestWork:
 
     def test_every_panel_that_wants_it_shows_what_was_done_once(self, steps: list[str]):
         work = counting("power", 1.0, True, steps)
-        views = [partial(lambda name, now: {name: work.key in now.answers}, name) for name in ("power", "strip")]
+        views = [
+            partial(lambda name, now: {name: work.key in now.answers}, name)
+            for name in ("power", "strip")
+        ]
         page = page_of(*(Panel(view, works=lambda now: (work,)) for view in views))
         page.updater._now = lambda: replace(NOW, answers=page.updater.answers())
         deque(page.updater.work(soon=True))
         assert steps == ["power"] * 3
         assert page.bridge.sent[-1] == {"power": True, "strip": True}
 
-    def test_what_is_interrupted_goes_on_and_what_is_done_is_not_done_again(self, page: PanelPage, steps: list[str]):
+    def test_what_is_interrupted_goes_on_and_what_is_done_is_not_done_again(
+        self, page: PanelPage, steps: list[str]
+    ):
         interrupted = page.updater.work(soon=True)
         next(interrupted)
         next(interrupted)
@@ -183,7 +211,9 @@ class TestWork:
             deque(page.updater.work(soon=True))
             assert steps == ["power"] * 3
 
-    def test_a_result_is_kept_while_it_is_wanted_and_the_last_one_remembered(self, page: PanelPage, steps: list[str]):
+    def test_a_result_is_kept_while_it_is_wanted_and_the_last_one_remembered(
+        self, page: PanelPage, steps: list[str]
+    ):
         deque(page.updater.work(soon=True))
         at = "power", OPENING.advance_ratio
         assert page.updater.answers()[at] == OPENING.advance_ratio

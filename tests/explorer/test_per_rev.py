@@ -64,11 +64,17 @@ def test_each_blade_is_drawn_at_the_pitch_of_its_root():
     wave = sum(one.amplitude * math.cos(one.per_rev * psi - one.phase) for one in PITCH)
     still = replace(controls, collective=controls.collective + wave)
     hinge = 0.4
-    assert_allclose(blade_pose(controls, psi, hinge, solution.design).wxyz, blade_pose(still, psi, hinge).wxyz)
+    assert_allclose(
+        blade_pose(controls, psi, hinge, solution.design).wxyz, blade_pose(still, psi, hinge).wxyz
+    )
     series = motion_of(solution)["pitch"]
     assert len(series) == 11
     waves = [1.0, *(one for n in range(1, 6) for one in (math.cos(n * psi), math.sin(n * psi)))]
-    cyclic = controls.collective + controls.cyclic_1c * math.cos(psi) + controls.cyclic_1s * math.sin(psi)
+    cyclic = (
+        controls.collective
+        + controls.cyclic_1c * math.cos(psi)
+        + controls.cyclic_1s * math.sin(psi)
+    )
     assert_allclose(np.dot(series, waves), cyclic + wave)
     assert len(pitch_series(controls, MOVED.design().at(hover=True))) == 3
 
@@ -83,23 +89,32 @@ def test_the_twist_curve_has_the_band_of_twist_at_n_per_rev():
     jig, tip = shown_twist(solution.design)(r), math.degrees(TWIST[0].amplitude)
     assert_allclose(mean, jig, atol=1e-9)
     assert_allclose([low[1] - jig[1], high[1] - jig[1]], [-tip, tip], atol=0.02)
-    assert_allclose([low[0] - jig[0], high[0] - jig[0]], [0.0, 0.0], atol=0.05)  # To the first element.
+    # To the first element.
+    assert_allclose([low[0] - jig[0], high[0] - jig[0]], [0.0, 0.0], atol=0.05)
     still = solve(replace(OPENING, elastic_twist=False).design()).require()
     assert flown_band(still, r) is None
     elastic, pitched = (
-        flown_band(solve(one.design()).require(), r) for one in (OPENING, replace(OPENING, pitch_per_rev=PITCH))
+        flown_band(solve(one.design()).require(), r)
+        for one in (OPENING, replace(OPENING, pitch_per_rev=PITCH))
     )
     assert np.ptp([pitched[1][1], pitched[2][1]]) > np.ptp([elastic[1][1], elastic[2][1]]) + 1.0
 
 
 def test_words():
-    before, after = (solve(one.design()).require() for one in (OPENING, replace(OPENING, pitch_per_rev=PITCH)))
-    assert wave_words(MOVED.design()).startswith("active twist of 1.00° at 2/rev (phase 30°) and root pitch of 1.50°")
+    before, after = (
+        solve(one.design()).require() for one in (OPENING, replace(OPENING, pitch_per_rev=PITCH))
+    )
+    assert wave_words(MOVED.design()).startswith(
+        "active twist of 1.00° at 2/rev (phase 30°) and root pitch of 1.50°"
+    )
     assert wave_words(MOVED.design().at(hover=True)) == wave_words(OPENING.design()) == ""
     assert any("root pitch: 3/rev" in line for line in provenance_lines(after))
     assert "Root pitch at 3/rev and 5/rev" in why(before, after)
     assert "No n/rev root pitch" in why(after, before)
-    assert "collective and cyclic only" in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
+    assert (
+        "collective and cyclic only"
+        in validated(solve(make_design(rotor="xv15", pitch_per_rev="3:1:0"))).sentence
+    )
 
 
 STEADY = make_design(twist="builtin", mu=0.3, off="dynamic-stall")
@@ -122,7 +137,10 @@ def lost(waves: tuple[Harmonic, ...]) -> float:
 @pytest.fixture(scope="module")
 def whole() -> list[DialAnswer]:
     """With every inflow model, the design's own first."""
-    models = [replace(BENDING.models, inflow=one) for one in dict.fromkeys((BENDING.models.inflow, *band_inflows()))]
+    models = [
+        replace(BENDING.models, inflow=one)
+        for one in dict.fromkeys((BENDING.models.inflow, *band_inflows()))
+    ]
     flown = with_harmonics(BENDING, WAVES)
     return [dial_answer(replace(flown, models=one), LOSSES, 1.0) for one in models]
 
@@ -132,7 +150,9 @@ def answer(whole: list[DialAnswer]) -> DialNumbers:
     return whole[0].numbers
 
 
-def changes(design: Design, before: tuple[Harmonic, ...], after: tuple[Harmonic, ...]) -> tuple[float, float]:
+def changes(
+    design: Design, before: tuple[Harmonic, ...], after: tuple[Harmonic, ...]
+) -> tuple[float, float]:
     """Changes of power and index [%], by two trims."""
     rest, moved = (solve(with_harmonics(design, waves)).require() for waves in (before, after))
     index = hub_index(Analysis(moved).adjoint) / hub_index(Analysis(rest).adjoint)
@@ -147,11 +167,17 @@ def test_what_is_foreseen_is_what_a_trim_gives(answer: DialNumbers):
     assert_allclose(foreseen(answer, ()), 0.0, atol=1e-3)  # To the digits that are sent.
 
 
-def test_power_is_that_of_the_blades_of_the_design_and_vibration_that_of_blades_that_bend(answer: DialNumbers):
+def test_power_is_that_of_the_blades_of_the_design_and_vibration_that_of_blades_that_bend(
+    answer: DialNumbers,
+):
     rigid = dial_answer(with_harmonics(STEADY, WAVES), LOSSES, 0.0).numbers
-    rest, moved = (solve(with_harmonics(STEADY, waves)).require().power.total for waves in ((), WAVES))
+    rest, moved = (
+        solve(with_harmonics(STEADY, waves)).require().power.total for waves in ((), WAVES)
+    )
     lost = sum(LOSSES[one.per_rev - 2] * math.degrees(one.amplitude) ** 2 for one in WAVES)
-    assert_allclose(0.01 * rigid.power * foreseen(rigid, WAVES)[0], moved - rest + lost, atol=0.0025 * rest)
+    assert_allclose(
+        0.01 * rigid.power * foreseen(rigid, WAVES)[0], moved - rest + lost, atol=0.0025 * rest
+    )
     assert_allclose(rigid.power, rest, rtol=1e-5)
     assert foreseen(rigid, WAVES)[1] == foreseen(answer, WAVES)[1]
 
@@ -178,8 +204,13 @@ def test_the_front_is_near_its_trims(whole: list[DialAnswer], answer: DialNumber
 
 def test_the_room_that_a_steady_voltage_leaves():
     installed = install(find_actuator("MFC_P1"), default_placement(2), HostBlade(), BENDING.rotor)
-    assert FittedBlade(installed, (0.0,)).whole == pytest.approx(math.degrees(tip_amplitude(installed)))
-    assert bending(make_design(mu=0.3, twist="builtin", pitch_per_rev="3:1:0", off="dynamic-stall")) == BENDING
+    assert FittedBlade(installed, (0.0,)).whole == pytest.approx(
+        math.degrees(tip_amplitude(installed))
+    )
+    assert (
+        bending(make_design(mu=0.3, twist="builtin", pitch_per_rev="3:1:0", off="dynamic-stall"))
+        == BENDING
+    )
     low, high = -500.0, 1500.0
     assert harmonic_share(installed, (0.0,)) == 1.0  # Not driven: about the middle.
     assert harmonic_share(installed, (high,)) == harmonic_share(installed, (low,)) == 0.0
@@ -192,7 +223,8 @@ def test_an_effect_is_that_of_two_trims():
     found = effect(flown, BENDING)
     assert len(found.power) == len(found.index) == 4
     rest = solve(BENDING).require()
-    assert_allclose(100.0 * found.power[0] / rest.power.total, power, atol=0.1)  # Pitch links and plies do work too.
+    # Pitch links and plies do work too.
+    assert_allclose(100.0 * found.power[0] / rest.power.total, power, atol=0.1)
     assert_allclose(found.index[0], index, atol=0.1)
     assert effect(make_design(mu=0.0), make_design(mu=0.0)).index == ()
     assert_allclose(effect(make_design(mu=0.1), make_design(mu=0.1)).power, 0.0, atol=1e-3)
@@ -211,12 +243,16 @@ def test_published_programmes_are_told_with_their_sources():
     (points,) = [one for one in front_chart(()).series if isinstance(one, Points)]
     shown = [one for one in programmes() if one.together]
     assert list(points.x) == [one.power_change_percent for one in shown]
-    assert [one.source in words for one, words in zip(shown, points.words, strict=True)] == [True] * 3
+    assert [one.source in words for one, words in zip(shown, points.words, strict=True)] == [
+        True
+    ] * 3
     assert "reduced vibration by 50 to 95 %" in validation_words()
 
 
 def test_only_where_wakes_agree_in_sign_is_anything_best():
-    agreed, apart = (FrontDot(WAVES, -0.5, (-0.7, 0.1), -40.0, over) for over in ((-60.0, -20.0), (-60.0, 51.0)))
+    agreed, apart = (
+        FrontDot(WAVES, -0.5, (-0.7, 0.1), -40.0, over) for over in ((-60.0, -20.0), (-60.0, 51.0))
+    )
     assert agreed.agreed
     assert not apart.agreed
     labels = [one.label for one in front_chart((agreed, apart)).series if isinstance(one, Points)]

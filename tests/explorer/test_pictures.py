@@ -24,7 +24,15 @@ from explorer.picture.camera_views import (
 )
 from explorer.picture.fields import FIELDS
 from explorer.picture.lifted_blade import fit_lifted
-from explorer.picture.picture import DISK_DROP, blade_pose, disk_png, drawn_times, make_picture, rotate, tip_path_pose
+from explorer.picture.picture import (
+    DISK_DROP,
+    blade_pose,
+    disk_png,
+    drawn_times,
+    make_picture,
+    rotate,
+    tip_path_pose,
+)
 from explorer.picture.polar import DrawnSolution, PolarGrid, RefinedFlow, polar_grid
 from rotor import Solution, make_design, solve
 from rotor.aero.inflow.lifting_line import LiftingLineTerms
@@ -53,7 +61,9 @@ class TestDiskPicture:
         field = FIELDS["Mach number"]
         image = opened(disk_png(fast, field, (field.low, field.high))).astype(int)
         luminance = image[..., :3] @ [0.2126, 0.7152, 0.0722]
-        right, left, top, bottom = (at(luminance[..., None], 0.8, psi)[0] for psi in (90, 270, 180, 0))
+        right, left, top, bottom = (
+            at(luminance[..., None], 0.8, psi)[0] for psi in (90, 270, 180, 0)
+        )
         assert right > top > left
         assert abs(top - bottom) < 6.0
         # Pitt–Peters puts the stronger inflow aft, ψ = 0, at the bottom.
@@ -66,7 +76,9 @@ class TestDiskPicture:
         image = opened(disk_png(fast, FIELDS["Mach number"], (0.0, 0.9)))
         assert image[0, 0, 3] == 0
         assert at(image, 0.0, 0.0)[3] == 0
-        assert all(at(image, r, psi)[3] == 255 for r in (0.16, 0.5, 0.98) for psi in range(0, 360, 15))
+        assert all(
+            at(image, r, psi)[3] == 255 for r in (0.16, 0.5, 0.98) for psi in range(0, 360, 15)
+        )
         field = FIELDS["Angle of attack"]
         image = opened(disk_png(fast, field, (field.low, field.high)))
         assert tuple(at(image, 0.2, 270)[:3]) == VOID
@@ -90,7 +102,8 @@ class TestFields:
     def test_thrust_per_blade_sums_to_the_weight(self, hover: Solution):
         """∫ dT/dr dr over R, four blades, is the thrust that holds 8322.4 kg and 3.5 % of download up."""
         grid = grid_of(hover)
-        per_blade = 1e3 * FIELDS["Thrust dT/dr"].sample(DrawnSolution(hover), grid).mean(axis=1)  # [N/m]
+        # [N/m]
+        per_blade = 1e3 * FIELDS["Thrust dT/dr"].sample(DrawnSolution(hover), grid).mean(axis=1)
         lift = 4.0 * np.trapezoid(per_blade, grid.r) * hover.design.rotor.radius
         assert_allclose(lift, 1.035 * hover.design.condition.weight, rtol=0.02)
 
@@ -111,7 +124,9 @@ class TestFields:
         """On the solver's own points, outside reverse flow, to rounding in single precision."""
         solution = solve(make_design(preset=preset, mu=0.3))
         disk = solution.disk
-        same = RefinedFlow(solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi)))).margin
+        same = RefinedFlow(
+            solution, PolarGrid(disk.r, disk.psi, np.eye(len(disk.r)), np.eye(len(disk.psi)))
+        ).margin
         ahead = disk.u_t > 0.0
         assert_allclose(same[ahead], disk.stall_margin[ahead], atol=2e-6)
 
@@ -145,18 +160,25 @@ class TestPicture:
     def test_marked_blade_is_first_and_blades_are_evenly_spaced(self, fast: Solution):
         view = ViewState(azimuth_deg=30.0)
         picture = make_picture(fast, view)
-        azimuths = [math.degrees(math.atan2(p.position[1], p.position[0])) % 360 for p in picture.blades.poses]
+        azimuths = [
+            math.degrees(math.atan2(p.position[1], p.position[0])) % 360
+            for p in picture.blades.poses
+        ]
         assert_allclose(azimuths, [30.0, 120.0, 210.0, 300.0], atol=1e-9)
         assert picture.blades.azimuth == pytest.approx(math.radians(30.0))
 
-    def test_the_airframe_leans_by_the_shaft_tilt_less_the_shaft_in_the_airframe(self, fast: Solution):
+    def test_the_airframe_leans_by_the_shaft_tilt_less_the_shaft_in_the_airframe(
+        self, fast: Solution
+    ):
         """The nose is at −x: it goes down by the shaft tilt, less the 3° that the shaft leans forward already."""
         nose = rotate(make_picture(fast, ViewState()).airframe.wxyz, np.array([-1.0, 0.0, 0.0]))
         down = math.degrees(math.asin(-nose[2]))
         assert_allclose(down, math.degrees(fast.controls.shaft_tilt) - 3.0, atol=1e-9)
 
 
-def on_canvas(camera: Camera, aspect: float, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+def on_canvas(
+    camera: Camera, aspect: float, points: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Where points are seen: across and up in −1…1 of the canvas, and the camera's right in the world."""
     forward = camera.look_at - camera.position
     forward /= np.linalg.norm(forward)
@@ -166,7 +188,11 @@ def on_canvas(camera: Camera, aspect: float, points: np.ndarray) -> tuple[np.nda
     tan = math.tan(FIELD_OF_VIEW / 2.0)
     depth = seen @ forward
     assert depth.min() > 1.0  # The near plane.
-    return seen @ right / depth / (tan * aspect), seen @ np.cross(right, forward) / depth / tan, right
+    return (
+        seen @ right / depth / (tan * aspect),
+        seen @ np.cross(right, forward) / depth / tan,
+        right,
+    )
 
 
 class TestCamera:
@@ -184,10 +210,14 @@ class TestCamera:
 
     @pytest.mark.parametrize("aspect", ASPECTS)
     @pytest.mark.parametrize("radius", [3.84, 8.18, 9.45])
-    def test_the_aircraft_is_inside_with_its_tail_rotor_and_the_words(self, radius: float, aspect: float):
+    def test_the_aircraft_is_inside_with_its_tail_rotor_and_the_words(
+        self, radius: float, aspect: float
+    ):
         reach = radius * np.array([[1.24, 0.0, 0.0], [1.2, 0.0, -0.45], [-0.6, 0.0, -0.45]])
         x, y, right = on_canvas(
-            fit("3d", radius, aspect), aspect, np.concatenate((1.16 / 8.18 * radius * self.RIM, reach))
+            fit("3d", radius, aspect),
+            aspect,
+            np.concatenate((1.16 / 8.18 * radius * self.RIM, reach)),
         )
         assert 0.6 < max(np.abs(x).max(), np.abs(y).max()) < 1.0
         assert right[1] > 0.8  # The advancing side is at the right.
@@ -196,7 +226,9 @@ class TestCamera:
     @pytest.mark.parametrize("view", ["top", "side", "blade"])
     def test_a_framed_view_lies_between_the_cards(self, view: View, aspect: float):
         cover = Covered(0.2, 0.3)
-        points = self.RIM if view != "blade" else 8.18 * np.array([[0.05, 0.0, 0.0], [1.0, 0.0, 0.03]])
+        points = (
+            self.RIM if view != "blade" else 8.18 * np.array([[0.05, 0.0, 0.0], [1.0, 0.0, 0.03]])
+        )
         x, y, _ = on_canvas(fit(view, 8.18, aspect, cover=cover), aspect, points)
         assert np.abs(x).max() < 1.0
         assert y.max() < 1.0 - 2.0 * cover.above
@@ -206,7 +238,8 @@ class TestCamera:
         """A rotor tilted by 6° more is seen 4.8° further from above."""
         usual, tilted = (fit("3d", 8.18, 1.6, tilt=math.radians(tilt)) for tilt in (3.0, 9.0))
         rise = [
-            math.asin((c.position - c.look_at)[2] / np.linalg.norm(c.position - c.look_at)) for c in (usual, tilted)
+            math.asin((c.position - c.look_at)[2] / np.linalg.norm(c.position - c.look_at))
+            for c in (usual, tilted)
         ]
         assert math.degrees(rise[1] - rise[0]) == pytest.approx(4.8)
 
@@ -235,7 +268,9 @@ class TestCamera:
         points = np.concatenate((blade + 0.15 * ahead, blade - 0.4 * ahead))
         x, y, _ = on_canvas(fit("blade", 8.18, aspect, psi, cover=UNCOVERED), aspect, points)
         assert 0.7 < max(np.abs(x).max(), np.abs(y).max()) < 1.0
-        before, _, _ = on_canvas(fit("blade", 8.18, aspect, 0.0, cover=UNCOVERED), aspect, points @ _about_z(psi))
+        before, _, _ = on_canvas(
+            fit("blade", 8.18, aspect, 0.0, cover=UNCOVERED), aspect, points @ _about_z(psi)
+        )
         assert_allclose(x, before, atol=1e-9)  # It rides with the blade.
 
 
@@ -252,4 +287,6 @@ def test_no_section_is_drawn_turned_by_more_than_60_degrees(rotor: str, times: f
     found = drawn_times(design, ViewState())
     assert found == pytest.approx(times, abs=0.5)
     r = np.linspace(design.rotor.blade.root_cutout, 1.0, 9)
-    assert np.abs(found * (design.twist(r) - design.twist([0.75]))).max() <= math.radians(60.0) + 1e-9
+    assert (
+        np.abs(found * (design.twist(r) - design.twist([0.75]))).max() <= math.radians(60.0) + 1e-9
+    )

@@ -24,7 +24,9 @@ from tests.fake_bridge import Bridge
 ALPHA, MACH = FIELDS["Angle of attack"], FIELDS["Mach number"]
 
 
-@pytest.fixture(scope="module", params=[(0.2, 8322.0), (0.4, 10000.0)], ids=["mu 0.2", "mu 0.4, heavy"])
+@pytest.fixture(
+    scope="module", params=[(0.2, 8322.0), (0.4, 10000.0)], ids=["mu 0.2", "mu 0.4, heavy"]
+)
 def solution(request: pytest.FixtureRequest) -> Solution:
     mu, mass = request.param
     return solve(make_design(mu=mu, mass_kg=mass))
@@ -37,8 +39,13 @@ def table(packed: PackedTable, like: Array) -> Array:
 
 def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Solution):
     shares = region_shares(solution)
-    (stalled, thrust), words = shares["stall"], plan(solution, ViewState(), ALPHA, (0.0, 9.0), False).regions
-    assert words[0].words.startswith(f"{100.0 * solution.stalled_area:.1f} % area"), "as on the card"
+    (stalled, thrust), words = (
+        shares["stall"],
+        plan(solution, ViewState(), ALPHA, (0.0, 9.0), False).regions,
+    )
+    assert words[0].words.startswith(f"{100.0 * solution.stalled_area:.1f} % area"), (
+        "as on the card"
+    )
     assert len(words[0].lines) > 0
     assert shares["reverse_flow"][0] == pytest.approx(solution.reverse_flow_area, abs=0.001)
     assert abs(thrust) < stalled  # Where the flow is slow there is little lift to lose.
@@ -50,14 +57,22 @@ def test_values_under_the_pointer_are_those_of_the_stations_and_of_the_field(sol
     assert shown.coloured is not None
     assert shown.values is not None
     coloured = MACH.sample(DrawnSolution(solution), polar_grid(disk, 40, 120))
-    assert np.abs(table(shown.coloured, coloured) - coloured).max() <= 0.51 * shown.coloured.step + 1e-9
+    assert (
+        np.abs(table(shown.coloured, coloured) - coloured).max()
+        <= 0.51 * shown.coloured.step + 1e-9
+    )
     assert shown.values.r == pytest.approx(disk.r, abs=1e-6)
     assert math.radians(shown.values.first) == pytest.approx(disk.psi[0])
     tables = {name: table(packed, disk.mach) for name, packed in shown.values.tables.items()}
     phi = np.degrees(np.arctan2(tables["u_p"], tables["u_t"]))
     turn = tables["theta"] + tables["ahead"] - phi - np.degrees(disk.alpha)
-    assert np.abs(np.remainder(turn + 180.0, 360.0) - 180.0)[tables["u_t"] > CLEAR_OF_REVERSE].max() < 0.01
-    margin = np.minimum(np.degrees(disk.alpha) - tables["lower"], tables["upper"] - np.degrees(disk.alpha))
+    assert (
+        np.abs(np.remainder(turn + 180.0, 360.0) - 180.0)[tables["u_t"] > CLEAR_OF_REVERSE].max()
+        < 0.01
+    )
+    margin = np.minimum(
+        np.degrees(disk.alpha) - tables["lower"], tables["upper"] - np.degrees(disk.alpha)
+    )
     for row, column in ((4, 3), (12, 9), (20, 17)):
         there = probe(solution, float(disk.r[row]), float(disk.psi[column]))
         assert tables["cl"][row, column] == pytest.approx(there.cl, abs=1e-4)
@@ -84,11 +99,17 @@ def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
     other = solve(make_design(mu=0.3))
     shown = plan(solution, ViewState(), ALPHA, (-4.0, 10.0), True, other)
     reverse = next(one for one in shown.regions if one.name == "reverse_flow")
-    own, before = (max(np.abs(np.concatenate(lines)[:, 0])) for lines in (reverse.lines, reverse.before))
+    own, before = (
+        max(np.abs(np.concatenate(lines)[:, 0])) for lines in (reverse.lines, reverse.before)
+    )
     tilt = np.cos([s.controls.shaft_tilt for s in (solution, other)])
-    assert [own, before] == pytest.approx([solution.design.condition.advance_ratio * tilt[0], 0.3 * tilt[1]], abs=1e-3)
+    assert [own, before] == pytest.approx(
+        [solution.design.condition.advance_ratio * tilt[0], 0.3 * tilt[1]], abs=1e-3
+    )
     assert shown.before is not None
-    assert np.abs(table(shown.before.tables["mach"], other.disk.mach) - other.disk.mach).max() < 1e-4
+    assert (
+        np.abs(table(shown.before.tables["mach"], other.disk.mach) - other.disk.mach).max() < 1e-4
+    )
 
 
 @pytest.mark.parametrize(
@@ -99,7 +120,9 @@ def test_outlines_of_the_pinned_design_stand_beside(solution: Solution):
         ("Profile power dP/dr", "profile", 0.03),
     ],
 )
-def test_power_fields_sum_to_the_power_by_parts(solution: Solution, title: str, part: str, within: float):
+def test_power_fields_sum_to_the_power_by_parts(
+    solution: Solution, title: str, part: str, within: float
+):
     grid, rotor = polar_grid(solution.disk, 120, 480), solution.design.rotor
     per_metre = FIELDS[title].sample(DrawnSolution(solution), grid).mean(axis=1)
     total = 1e3 * per_metre.sum() * (grid.r[1] - grid.r[0]) * rotor.radius * rotor.blades

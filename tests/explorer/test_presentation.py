@@ -12,7 +12,14 @@ from explorer.hosting import browser
 from explorer.model.inputs import OPENING, Inputs, ViewState
 from explorer.model.session_state import ScreenState
 from explorer.sharing.game import Game
-from explorer.sharing.presentation import FOLLOW, PRESENT, Presentations, PresentedView, follow_name, new_secret
+from explorer.sharing.presentation import (
+    FOLLOW,
+    PRESENT,
+    Presentations,
+    PresentedView,
+    follow_name,
+    new_secret,
+)
 from explorer.sharing.share import DESIGN, code_of
 from explorer.widgets.lecture.presentation_banner import PresentationBanner
 from explorer.widgets.optimise.hand_game import GAME
@@ -86,7 +93,10 @@ def test_one_page_presents_and_a_duplicate_of_its_tab_follows(app: App):
 
 def test_followers_play_with_sliders_of_their_own_and_the_presenter_sees_what_they_reach(app: App):
     design = QUICK.design()
-    start, least = (replace(design, twist=make_design(twist=twist).twist) for twist in ("linear:-16", "linear:-7.5"))
+    start, least = (
+        replace(design, twist=make_design(twist=twist).twist)
+        for twist in ("linear:-16", "linear:-7.5")
+    )
     game = Game(start, least)
     query = f"?{DESIGN}={quote(code_of(start))}&{GAME}={quote(game.code())}"
 
@@ -111,9 +121,13 @@ def test_followers_play_with_sliders_of_their_own_and_the_presenter_sees_what_th
         reached = app.presentations._results[follow_name("a-secret")][1]
         assert [*reached.values()] == [standing.best.power.total]
         contents = presenter.widgets.values()
-        await presenter.until(lambda: any("Each player's best" in str(each.get("content")) for each in contents))
+        await presenter.until(
+            lambda: any("Each player's best" in str(each.get("content")) for each in contents)
+        )
         await presenter.press("game_end")
-        await follower.until(lambda: "the presenter controls this page" in follower.text("presentation"))
+        await follower.until(
+            lambda: "the presenter controls this page" in follower.text("presentation")
+        )
         await follower.idle()
         assert page.context.held
         assert page.context.inputs().linear == -16.0
@@ -162,7 +176,9 @@ class TestPresentations:
         presentations.present("s", replace(SHOWN, game=second))
         assert told[-1] == (0, ())
 
-    def test_one_that_fails_does_not_keep_it_from_the_others(self, caplog: pytest.LogCaptureFixture):
+    def test_one_that_fails_does_not_keep_it_from_the_others(
+        self, caplog: pytest.LogCaptureFixture
+    ):
         presentations, secret = Presentations(), new_secret()
         heard: list[PresentedView | str] = []
 

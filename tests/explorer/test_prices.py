@@ -32,7 +32,9 @@ def known(*off: str) -> PageState:
     state = SessionState(Inputs(), ViewState(), solution, solution, None)
     now = PageState(Inputs(), solution.design, state, ui=OpenPanels(disk=True))
     work = (*waterfall_work(now), *stall_edge_work(now))
-    return replace(now, answers=dict(zip((one.key for one in work), (steps(), EDGES), strict=False)))
+    return replace(
+        now, answers=dict(zip((one.key for one in work), (steps(), EDGES), strict=False))
+    )
 
 
 def kilowatts(text: str) -> float:
@@ -49,7 +51,8 @@ def test_the_disk_says_what_the_waterfall_says():
         assert without.added is not None
         assert kilowatts(beside[name]) == pytest.approx(-without.added / 1e3, abs=0.05)
     column = re.findall(r'class="rx-w rx-w-number[^>]*>([^<]+)<', drawn)
-    row = column[1 + list(SWITCHES).index("stall")]  # The last effect that is added: all others are on.
+    # The last effect that is added: all others are on.
+    row = column[1 + list(SWITCHES).index("stall")]
     assert kilowatts(row) == kilowatts(shown["stall"].lines[0])
     assert shown["stall"].press == "Without stall"
     assert not shown["stall"].stale

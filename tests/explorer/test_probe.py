@@ -16,7 +16,14 @@ from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import pick, pick_blade
 from explorer.picture.element import AZIMUTHS, FlowRegion, probe, turn_of
-from explorer.picture.picture import DISK_DROP, composed_rotation, make_picture, rotate, rotor_pose, tip_path_pose
+from explorer.picture.picture import (
+    DISK_DROP,
+    composed_rotation,
+    make_picture,
+    rotate,
+    rotor_pose,
+    tip_path_pose,
+)
 from rotor import Solution, make_design, solve
 from rotor.aero.switches import with_switches
 from rotor.design.design import FLIGHT_MODELS
@@ -27,7 +34,9 @@ CASES = {
     "hover": make_design(preset="flight", mu=0.0),
     "cruise": make_design(preset="flight", mu=0.2),
     "fast": make_design(preset="flight", mu=0.37),
-    "fast, on its own grid": make_design(preset="flight", mu=0.37, models=replace(FLIGHT_MODELS, azimuths=24)),
+    "fast, on its own grid": make_design(
+        preset="flight", mu=0.37, models=replace(FLIGHT_MODELS, azimuths=24)
+    ),
     "thesis": make_design(preset="thesis", mu=0.3),
     "switched off": make_design(preset="flight", mu=0.3, models=SIMPLE),
 }
@@ -51,19 +60,41 @@ def steady(fast: Solution) -> Solution:
 
 def stations(solution: Solution) -> list[tuple[int, int]]:
     rows, columns = solution.disk.u_t.shape
-    return [(i, j) for i in range(0, rows, 3) for j in range(0, columns, 7)] + [(rows - 1, columns - 1)]
+    return [(i, j) for i in range(0, rows, 3) for j in range(0, columns, 7)] + [
+        (rows - 1, columns - 1)
+    ]
 
 
 def test_at_a_station_it_is_what_the_disk_holds(solution: Solution):
     disk, speed = solution.disk, solution.design.rotor.tip_speed
     for i, j in stations(solution):
         p = probe(solution, float(disk.r[i]), float(disk.psi[j]))
-        seen = (p.theta, p.u_t / speed, p.u_p / speed, p.induced / speed, p.mach, p.cl, p.cd, p.cd_mach)
-        fields = (disk.theta, disk.u_t, disk.u_p, disk.induced, disk.mach, disk.cl, disk.cd, disk.cd_mach)
+        seen = (
+            p.theta,
+            p.u_t / speed,
+            p.u_p / speed,
+            p.induced / speed,
+            p.mach,
+            p.cl,
+            p.cd,
+            p.cd_mach,
+        )
+        fields = (
+            disk.theta,
+            disk.u_t,
+            disk.u_p,
+            disk.induced,
+            disk.mach,
+            disk.cl,
+            disk.cd,
+            disk.cd_mach,
+        )
         assert_allclose(seen, [field[i, j] for field in fields], rtol=1e-14, atol=1e-15)
         assert_allclose(math.remainder(p.alpha - disk.alpha[i, j], math.tau), 0.0, atol=1e-13)
         if disk.u_t[i, j] < 0.0:
-            assert p.region is (FlowRegion.REVERSE if solution.design.models.reverse_flow else FlowRegion.IDLE)
+            assert p.region is (
+                FlowRegion.REVERSE if solution.design.models.reverse_flow else FlowRegion.IDLE
+            )
         else:
             assert p.stall_margin == pytest.approx(disk.stall_margin[i, j], abs=1e-12)
             assert (p.region is FlowRegion.STALLED) == disk.stalled[i, j]
@@ -76,7 +107,9 @@ def test_its_loads_add_up_to_the_trim(solution: Solution):
     rotor = design.rotor
     cell = rotor.blades * np.repeat(disk.dr, len(disk.psi)) * rotor.radius / len(disk.psi)
     all_of_them = [probe(solution, float(r), float(psi)) for r in disk.r for psi in disk.psi]
-    assert_allclose(cell @ [p.thrust for p in all_of_them], solution.ct * design.thrust_unit, rtol=1e-12)
+    assert_allclose(
+        cell @ [p.thrust for p in all_of_them], solution.ct * design.thrust_unit, rtol=1e-12
+    )
     shaft = (disk.r * disk.dr @ disk.dcq).sum() / len(disk.psi) * design.power_unit
     assert_allclose(cell @ [p.power for p in all_of_them], shaft, rtol=1e-12)
 
@@ -91,7 +124,11 @@ def test_the_triangle_closes_anywhere(r: float, psi: float, steady: Solution):
     assert_allclose(math.remainder(p.theta - p.phi - p.alpha, math.tau), 0.0, atol=1e-12)
     # Forces turned from flow to disk and back: one vector.
     assert_allclose(math.hypot(p.lift, p.drag), math.hypot(p.thrust, p.pull), rtol=1e-12)
-    assert_allclose(p.thrust, p.lift * math.cos(p.phi) - p.drag * math.sin(p.phi), atol=1e-9 * abs(p.lift) + 1e-9)
+    assert_allclose(
+        p.thrust,
+        p.lift * math.cos(p.phi) - p.drag * math.sin(p.phi),
+        atol=1e-9 * abs(p.lift) + 1e-9,
+    )
     assert p.cd > 0.0
     assert p.stall is not None
     assert all(math.isfinite(value) for value in (p.cl, p.lift, p.power, *p.stall))
@@ -159,7 +196,10 @@ class TestPick:
             assert pick(fast, above, self.on_disk(fast, r, 1.0) - above) is None
         assert pick(fast, above, (0.0, 0.0, 1.0)) is None
         normal = rotate(
-            composed_rotation(rotor_pose(fast.controls).wxyz, tip_path_pose(fast.controls, 0.0).wxyz), np.eye(3)[0]
+            composed_rotation(
+                rotor_pose(fast.controls).wxyz, tip_path_pose(fast.controls, 0.0).wxyz
+            ),
+            np.eye(3)[0],
         )
         assert pick(fast, above, normal) is None
 
@@ -178,7 +218,8 @@ def test_a_ray_at_a_blade_finds_its_section_and_keeps_the_azimuth(psi_deg: float
             ring = int(np.argmin(np.abs(shape.r - r)))
             top = own[ring * points + points // 4]
             place = rotate(picture.rotor.wxyz, pose.position + rotate(pose.wxyz, top))
-            eye = place + np.array([4.0, -3.0, 30.0])  # From where the upper side is seen at any pitch.
+            # From where the upper side is seen at any pitch.
+            eye = place + np.array([4.0, -3.0, 30.0])
             found = pick_blade(solution, view, eye, place - eye)
             assert_allclose(found[0], shape.r[ring], atol=0.003)
             assert found[1] == (psi_deg + 90.0 * k) % 360.0
@@ -199,7 +240,9 @@ class TestDrawing:
         assert len(shape) == 61  # The outline is the first polygon.
         nose, tail = shape[30], 0.5 * (shape[0] + shape[-1])
         pitch = math.atan2(tail[1] - nose[1], tail[0] - nose[0])
-        assert pitch == pytest.approx(p.theta - p.section.parts[0][0].incidence_offset, abs=math.radians(0.5))
+        assert pitch == pytest.approx(
+            p.theta - p.section.parts[0][0].incidence_offset, abs=math.radians(0.5)
+        )
         reach = math.dist(nose, tail)
         assert reach == pytest.approx(100.0, rel=0.02)
 
@@ -208,7 +251,9 @@ class TestDrawing:
         assert p.region is FlowRegion.REVERSE
         drawn, scales = drawing(p, 300.0, 8e3, opened=True)
         assert scales.angles == 1  # Large angles stay as they are.
-        wind = next(line for line in re.findall(r"<line[^>]*>", drawn) if 'stroke-width="2.6"' in line)
+        wind = next(
+            line for line in re.findall(r"<line[^>]*>", drawn) if 'stroke-width="2.6"' in line
+        )
         start, end = (float(wind.split(f'{name}="')[1].split('"')[0]) for name in ("x1", "x2"))
         assert start > end > 180.0  # From the right, ending behind the trailing edge.
         panel = probe_panel(p, fast)
@@ -232,12 +277,16 @@ class TestRide:
         r = float(steady.disk.r[np.abs(steady.disk.r - near).argmin()])
         turn, step = turn_of(steady, r, 40.0), AZIMUTHS // math.gcd(AZIMUTHS, len(steady.disk.psi))
         reversed_flow = np.array(turn.u) < 0.0
-        assert reversed_flow.any() == (near < 0.37)  # At ψ 270° the air comes from behind inboard of µ.
+        # At ψ 270° the air comes from behind inboard of µ.
+        assert reversed_flow.any() == (near < 0.37)
         for k in range(0, AZIMUTHS, step):  # Where the disk has a station.
             on_curve = np.interp(turn.alpha[k], turn.angles, turn.curves[k])
-            if abs(turn.alpha[k]) < max(turn.angles):  # Beside the hub the flow stands across the section.
+            # Beside the hub the flow stands across the section.
+            if abs(turn.alpha[k]) < max(turn.angles):
                 assert on_curve == pytest.approx(turn.cl[k], abs=0.01)
-            assert turn.lift[k] == pytest.approx(probe(steady, r, math.tau * k / AZIMUTHS).lift / 1e3, abs=1e-3)
+            assert turn.lift[k] == pytest.approx(
+                probe(steady, r, math.tau * k / AZIMUTHS).lift / 1e3, abs=1e-3
+            )
             if not reversed_flow[k]:
                 assert turn.theta[k] - turn.phi[k] == pytest.approx(turn.alpha[k], abs=0.02)
 
@@ -272,5 +321,7 @@ class TestDynamicStall:
     def test_the_drawer_draws_its_turn(self, stalled: Solution):
         p = probe(stalled, 0.6, math.radians(285.0))
         assert "a turn" in [one.label for one in lift_chart(p).series]
-        steady = solve(replace(stalled.design, models=replace(stalled.design.models, dynamic_stall=False)))
+        steady = solve(
+            replace(stalled.design, models=replace(stalled.design.models, dynamic_stall=False))
+        )
         assert "a turn" not in [one.label for one in lift_chart(probe(steady, 0.6, 1.0)).series]

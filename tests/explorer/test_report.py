@@ -62,20 +62,31 @@ class Swept(PowerCurves):
 
 
 class TestDrawing:
-    def test_the_disk_has_the_pixels_asked_for_up_to_the_largest(self, monkeypatch: pytest.MonkeyPatch):
+    def test_the_disk_has_the_pixels_asked_for_up_to_the_largest(
+        self, monkeypatch: pytest.MonkeyPatch
+    ):
         monkeypatch.setattr(disk_image, "LARGEST", 600)
         for size, made in ((200, 200), (SIZE, SIZE), (9000, 600)):
-            assert Image.open(io.BytesIO(disk_png(NOW, ALPHA, RANGE, size=size))).size == (made, made)
+            assert Image.open(io.BytesIO(disk_png(NOW, ALPHA, RANGE, size=size))).size == (
+                made,
+                made,
+            )
 
     def test_the_key_has_only_what_is_marked_and_there(self):
-        assert [title for title, _ in key_entries(FAST)] == ["reverse flow", "stall", "drag divergence"]
+        assert [title for title, _ in key_entries(FAST)] == [
+            "reverse flow",
+            "stall",
+            "drag divergence",
+        ]
         assert "reverse flow" not in dict(key_entries(solve(NOW.design.at(hover=True))))
 
 
 @pytest.fixture(scope="module")
 def report() -> DesignReport:
     return DesignReport(
-        ReportEntry("UH-60A as built", BASELINE), [ReportEntry("Now", NOW), ReportEntry("Kept <1>", FAST)], VIEW
+        ReportEntry("UH-60A as built", BASELINE),
+        [ReportEntry("Now", NOW), ReportEntry("Kept <1>", FAST)],
+        VIEW,
     )
 
 
@@ -130,18 +141,27 @@ class TestReport:
         """As squares, for power and for the change apart, within the digits printed."""
         near = ReportEntry("Now", NOW)
         report = DesignReport(ReportEntry("A", BASELINE), [near], replace(VIEW, units=units))
-        tables = re.findall(r"<h3>(Uncertainty of .+?)</h3><table>(.+?)</table>", doubts(report, near))
-        assert [title for title, _ in tables] == ["Uncertainty of power", "Uncertainty of the change"]
+        tables = re.findall(
+            r"<h3>(Uncertainty of .+?)</h3><table>(.+?)</table>", doubts(report, near)
+        )
+        assert [title for title, _ in tables] == [
+            "Uncertainty of power",
+            "Uncertainty of the change",
+        ]
         band, size = doubt(NOW, BASELINE), UNITS[units].power[0].size
         for (_, rows), known in zip(tables, (band.band, band.change_band), strict=True):
-            first, *causes = [float(value) for value in re.findall(r"±\s([\d.]+)\s\w+</td></tr>", rows)]
+            first, *causes = [
+                float(value) for value in re.findall(r"±\s([\d.]+)\s\w+</td></tr>", rows)
+            ]
             assert known is not None
             assert first == pytest.approx(known / size, rel=0.06)
             assert math.hypot(*causes) == pytest.approx(first, rel=0.1)
             assert causes[0] > 0.3 * first
 
     def test_a_change_has_a_colour_where_its_sign_is_known(self):
-        near = replace(BASELINE.design, twist=Inputs(law="builtin", built_inner=-1.0).design().twist)
+        near = replace(
+            BASELINE.design, twist=Inputs(law="builtin", built_inner=-1.0).design().twist
+        )
         for design, sureness in ((near, "unclear"), (NOW.design, "likely")):
             entry = ReportEntry("Now", solve(design))
             report = DesignReport(ReportEntry("As built", BASELINE), [entry], VIEW)
@@ -150,7 +170,9 @@ class TestReport:
             assert ("less" in words or "more" in words) == (sureness == "likely")
 
     def test_a_blade_as_built_is_compared_with_nothing(self):
-        alone = DesignReport(ReportEntry("As built", BASELINE), [ReportEntry("Now", solve(BASELINE.design))], VIEW)
+        alone = DesignReport(
+            ReportEntry("As built", BASELINE), [ReportEntry("Now", solve(BASELINE.design))], VIEW
+        )
         page = report_html(alone, None, Swept())
         assert page.count('data-report="total-power"') == 1
         assert "reference</span>" not in page
@@ -173,7 +195,9 @@ class TestReport:
         drawn = blade_mesh(NOW.design).vertices
         assert said is not None
         for r, chord in zip(
-            (0.6, 0.95), np.array(re.findall(r"[\d.]+(?=</td>)", said[1]), float)[[5, 11]], strict=True
+            (0.6, 0.95),
+            np.array(re.findall(r"[\d.]+(?=</td>)", said[1]), float)[[5, 11]],
+            strict=True,
         ):
             near = drawn[np.abs(drawn[:, 0] - r * NOW.design.rotor.radius) < 0.04]
             assert np.ptp(near[:, 1]) == pytest.approx(chord, abs=0.004)
@@ -186,7 +210,9 @@ class TestReport:
 
     def test_a_design_that_is_not_trimmed_is_refused_in_a_sentence(self):
         heavy = replace(NOW, status=Status.NOT_CONVERGED, message="Too heavy.")
-        with pytest.raises(ValueError, match="Now is not trimmed, so it cannot be reported: Too heavy"):
+        with pytest.raises(
+            ValueError, match="Now is not trimmed, so it cannot be reported: Too heavy"
+        ):
             DesignReport(ReportEntry("A", BASELINE), [ReportEntry("Now", heavy)], VIEW)
         with pytest.raises(ValueError, match="no design to report on"):
             DesignReport(ReportEntry("A", BASELINE), [], VIEW)
@@ -220,7 +246,9 @@ class TestCommand:
     def test_design_files_become_one_report(
         self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
     ):
-        monkeypatch.setattr(document, "report_html", lambda report, stage: report_html(report, stage, Swept()))
+        monkeypatch.setattr(
+            document, "report_html", lambda report, stage: report_html(report, stage, Swept())
+        )
         for name, solution in (("now", NOW), ("fast", FAST)):
             solution.design.save(tmp_path / f"{name}.json")
         out = tmp_path / "out.html"
@@ -236,9 +264,14 @@ class TestCommand:
         assert command.main(["report", "nowhere.json"]) == 2
         assert capsys.readouterr().err.count("\n") == 1
 
-    def test_a_file_of_another_kind_is_refused(self, tmp_path: Path, capsys: pytest.CaptureFixture[str]):
+    def test_a_file_of_another_kind_is_refused(
+        self, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+    ):
         """It held HTML."""
         NOW.design.save(tmp_path / "now.json")
-        assert command.main(["report", str(tmp_path / "now.json"), "--out", str(tmp_path / "now.pdf")]) == 2
+        assert (
+            command.main(["report", str(tmp_path / "now.json"), "--out", str(tmp_path / "now.pdf")])
+            == 2
+        )
         assert "write '" in capsys.readouterr().err
         assert not (tmp_path / "now.pdf").exists()

@@ -48,8 +48,13 @@ def test_report_rail_and_command_say_the_same(against: Against):
     assert f"± {kilowatt_text(one.net_band)}" in printed.splitlines()[0]
     assert numbers(page) == [bar.text for bar in rail.bars]
     assert f"<b>{rail.fuel}</b>" in page
-    said = re.findall(r"^  (?:gross|blade|stiffness|mass|drive|net).*?(saves|costs) (\S+)", printed, re.MULTILINE)
-    of_command = [(1.0 if verb == "saves" else -1.0) * float(size.replace("nothing", "0")) for verb, size in said]
+    said = re.findall(
+        r"^  (?:gross|blade|stiffness|mass|drive|net).*?(saves|costs) (\S+)", printed, re.MULTILINE
+    )
+    of_command = [
+        (1.0 if verb == "saves" else -1.0) * float(size.replace("nothing", "0"))
+        for verb, size in said
+    ]
     needed = [-float(text.replace("−", "-")) for text in numbers(page)]
     if against == "best-fixed":  # The command begins with what the actuator does.
         needed[:2] = needed[1::-1]
@@ -76,7 +81,9 @@ def test_what_cannot_be_judged_is_a_sentence():
 def test_units_are_those_of_the_page():
     page = actuator_section(verdict(), AVIATION)
     assert "hp, mean of hover and µ 0.30" in page
-    assert float(numbers(page)[-1].replace("−", "-")) == pytest.approx(-verdict().net_saving / 745.7, abs=0.51)
+    assert float(numbers(page)[-1].replace("−", "-")) == pytest.approx(
+        -verdict().net_saving / 745.7, abs=0.51
+    )
 
 
 def test_a_report_has_the_section_where_an_actuator_was_chosen():
@@ -88,7 +95,9 @@ def test_a_report_has_the_section_where_an_actuator_was_chosen():
 
 
 def test_the_headline_holds_the_mass_on_board_as_the_page_says_it():
-    now = actuate(Inputs(law="builtin", inflow="drees"), actuator=ActuatorInputs(drives=(77.0,) * 5))
+    now = actuate(
+        Inputs(law="builtin", inflow="drees"), actuator=ActuatorInputs(drives=(77.0,) * 5)
+    )
     task = flight_doubt(now)
     assert task is not None
     now = replace(now, answers={task.key: at_once(task.run(lambda: None))})
@@ -99,7 +108,10 @@ def test_the_headline_holds_the_mass_on_board_as_the_page_says_it():
     assert words.startswith("needs ")
     assert against == f"with {card.mass} on board, compared with the same blade without it"
     baseline = ReportEntry("Baseline", state.baseline)
-    page = report_html(DesignReport(baseline, [ReportEntry("Now", state.solution)], ViewState(), driven=driven), None)
+    page = report_html(
+        DesignReport(baseline, [ReportEntry("Now", state.solution)], ViewState(), driven=driven),
+        None,
+    )
     headline = page[page.index('<article class="card"') : page.index("</article>")]
     assert re.findall('data-report="on-board">([^<]*)<', headline) == [words]
     assert against in headline

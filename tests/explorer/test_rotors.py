@@ -39,7 +39,9 @@ R22 = with_rotor(Inputs(), "r22")
 DECK = asset_path("airfoils/naca0012.c81").read_bytes()
 POLAR = read_polars(asset_path("airfoils/naca0012_trip5.polars.csv")).polars[2]
 OUTLINE = asset_path("airfoils/naca0012.contour").read_bytes()
-NAMES_DECK = (GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\n').encode()
+NAMES_DECK = (
+    GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\n'
+).encode()
 
 
 @pytest.fixture(scope="module")
@@ -61,19 +63,37 @@ def test_the_page_opens_with_the_design_of_make_design(name: str):
     """Also a mass between two steps of its slider; and so do its link and a file of it."""
     inputs = with_rotor(OPENING, name)
     design, stand = inputs.design(), inputs.stand
-    test = {} if stand is None else {"mu": inputs.advance_ratio, "trim": stand.trim, "stand": stand.stand()}
-    tests = [] if stand is None else [(one.advance_ratio, one.stand) for one in measured_conditions(name)]
+    test = (
+        {}
+        if stand is None
+        else {"mu": inputs.advance_ratio, "trim": stand.trim, "stand": stand.stand()}
+    )
+    tests = (
+        []
+        if stand is None
+        else [(one.advance_ratio, one.stand) for one in measured_conditions(name)]
+    )
     assert ((inputs.advance_ratio, stand) in tests) == (name not in SHIPPED_ROTORS)
     assert with_rotor(inputs, "uh60a").stand is None
     assert design == make_design(rotor=name, **test)
     assert inputs_of(design) == inputs
     assert share.inputs_from(share.code_of(design)).design() == design
-    assert inputs_of(parse_design(json.dumps(design.to_dict()).encode(), "mine.json")).design() == design
+    assert (
+        inputs_of(parse_design(json.dumps(design.to_dict()).encode(), "mine.json")).design()
+        == design
+    )
 
 
 def test_another_rotor_comes_as_it_is_built():
-    inputs = with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0, law="optimised", airfoils="sc1095"), "s61")
-    assert (inputs.law, inputs.airfoils, inputs.advance_ratio, inputs.altitude_m) == ("builtin", "", 0.3, 1000.0)
+    inputs = with_rotor(
+        Inputs(advance_ratio=0.3, altitude_m=1000.0, law="optimised", airfoils="sc1095"), "s61"
+    )
+    assert (inputs.law, inputs.airfoils, inputs.advance_ratio, inputs.altitude_m) == (
+        "builtin",
+        "",
+        0.3,
+        1000.0,
+    )
     design = inputs.design()
     assert design.aircraft is shipped_aircraft("s61")
     assert design.condition.mass == 8618.0
@@ -81,7 +101,9 @@ def test_another_rotor_comes_as_it_is_built():
     assert inputs_of(design) == with_rotor(Inputs(advance_ratio=0.3, altitude_m=1000.0), "s61")
     assert title_words(design) == "Sikorsky S-61 as built"
     assert title_words(Inputs(law="three").design()) == "UH-60A · segments −16/−12/−6 at 0.4/0.75"
-    assert title_words(Inputs(law="linear", linear=-9.5).design()) == "UH-60A · linear −9.5\u00a0°/R"
+    assert (
+        title_words(Inputs(law="linear", linear=-9.5).design()) == "UH-60A · linear −9.5\u00a0°/R"
+    )
 
 
 def test_ones_own_rotor_stays_in_the_menu():
@@ -136,7 +158,10 @@ class TestShelf:
         assert later.add("mine.c81", DECK).aircraft == craft
 
     def test_polars_and_windows_line_ends(self):
-        toml = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\npolars = "p.txt"\noutline = "naca0012"\n'
+        toml = (
+            GOOD.replace('"naca0012"', '"mine"')
+            + '\n[sections.mine]\npolars = "p.txt"\noutline = "naca0012"\n'
+        )
         shelf = UploadedFiles()
         shelf.add("p.txt", polar_file(POLAR).replace("\n", "\r\n").encode())
         craft = shelf.add("my.toml", toml.encode("utf-8-sig")).aircraft
@@ -148,7 +173,11 @@ class TestShelf:
             ("photo.png", b"\x89PNG\r\n\x1a\n\0\0\0", "photo.png is not text: save it"),
             ("my.toml", b"\xff\xfe\x00", "my.toml is not text: save it"),
             ("my.toml", b"x" * 2_000_001, "my.toml has 2.0 MB: the limit for rotor files is 2 MB"),
-            ("my.toml", GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(), "my.toml, line 5: radius_m is -5"),
+            (
+                "my.toml",
+                GOOD.replace("radius_m = 5.0", "radius_m = -5.0").encode(),
+                "my.toml, line 5: radius_m is -5",
+            ),
             ("my.toml", b"name = \n", "my.toml, line 1: this is not TOML"),
         ],
     )
@@ -168,7 +197,9 @@ class TestShelf:
         ],
     )
     @pytest.mark.parametrize("rotor_first", [True, False])
-    def test_the_key_that_names_a_file_says_what_it_is(self, key: str, content: bytes, says: str, rotor_first: bool):
+    def test_the_key_that_names_a_file_says_what_it_is(
+        self, key: str, content: bytes, says: str, rotor_first: bool
+    ):
         """Whatever its suffix, and by its name without folders, as a browser gives it."""
         deck = 'deck = "mine.c81"\n' if key == "outline" else ""
         toml = f'{GOOD.replace("naca0012", "mine")}\n[sections.mine]\n{deck}{key} = "data/mine.cor"\n'.encode()
@@ -179,7 +210,8 @@ class TestShelf:
         shelf.add(*first)
         with pytest.raises(ValueError, match=re.escape(says)):
             shelf.add(*then)
-        assert shelf.add("mine.cor", good).aircraft is not None  # In its place, without the rotor file again.
+        # In its place, without the rotor file again.
+        assert shelf.add("mine.cor", good).aircraft is not None
 
 
 def test_the_picture_has_the_rotors_own_blades(r22: Solution):

@@ -34,7 +34,11 @@ class Shown:
         self.calls: list[tuple[str, tuple[float, float], bool, tuple[bool, bool]]] = []
 
     def show_range(
-        self, field: Field, colour_range: tuple[float, float], faded: bool, beyond: tuple[bool, bool]
+        self,
+        field: Field,
+        colour_range: tuple[float, float],
+        faded: bool,
+        beyond: tuple[bool, bool],
     ) -> None:
         self.calls.append((field.title, colour_range, faded, beyond))
 
@@ -59,7 +63,11 @@ class Page:
     def told(self, function: str) -> list[Any]:
         """The arguments of each call of a function of the page."""
         begin = f"rotorDisk.{function}("
-        return [json.loads(f"[{script[len(begin) : -1]}]") for script in self.scripts if script.startswith(begin)]
+        return [
+            json.loads(f"[{script[len(begin) : -1]}]")
+            for script in self.scripts
+            if script.startswith(begin)
+        ]
 
     def pitch(self, node: str) -> list[float]:
         """Of each ring of the blade that was shaped last there [rad]."""
@@ -98,7 +106,9 @@ class TestFrame:
         values, u_t, attached, _ = (unpacked(text).reshape(grid.shape) for text in numbers["texts"])
         field = FIELDS["Mach number"]
         shown = field.low + (values - 1) / 254.0 * (field.high - field.low)
-        np.testing.assert_allclose(shown, field.sample(drawn, grid).clip(field.low, field.high), atol=0.9 / 500)
+        np.testing.assert_allclose(
+            shown, field.sample(drawn, grid).clip(field.low, field.high), atol=0.9 / 500
+        )
         for margin, exact in ((u_t, drawn.flow(grid).u_t), (attached, drawn.flow(grid).attached)):
             sure = np.abs(exact) > 1e-3
             assert np.array_equal((margin > 128)[sure], (exact > 0.0)[sure])
@@ -119,7 +129,9 @@ class TestFrame:
 
 
 class TestScale:
-    def test_it_is_that_of_the_disk_that_is_drawn(self, page: Page, fast: Solution, changed: Solution):
+    def test_it_is_that_of_the_disk_that_is_drawn(
+        self, page: Page, fast: Solution, changed: Solution
+    ):
         """B − A by itself, but each as it is where A is wiped over B; none where no disk is in sight."""
         field, view = FIELDS[VIEW.field], replace(VIEW, difference=True)
         assert page.controller.scale is None
@@ -147,7 +159,9 @@ class TestOverlay:
         assert page["/rotor/blade_0/overlay"].visible
         assert not page["/rotor/blade_0/other"].visible
         flown = flown_twist(fast, math.radians(VIEW.azimuth_deg))
-        edges = overlay_segments(ROTOR, ROTOR.builtin_twist, flown, VIEW.exaggeration, math.radians(0.25))
+        edges = overlay_segments(
+            ROTOR, ROTOR.builtin_twist, flown, VIEW.exaggeration, math.radians(0.25)
+        )
         np.testing.assert_allclose(page["/rotor/blade_0/overlay"].points, edges, atol=1e-5)
 
     def test_it_turns_with_the_elastic_twist_of_the_blade(self, page: Page, changed: Solution):
@@ -157,7 +171,9 @@ class TestOverlay:
         page.controller.draw(changed, replace(VIEW, azimuth_deg=270.0), None)
         assert np.abs(page.pitch("/rotor/blade_0/other") - before).max() > math.radians(1.0)
 
-    def test_the_blade_as_built_stands_behind_a_changed_one(self, page: Page, fast: Solution, changed: Solution):
+    def test_the_blade_as_built_stands_behind_a_changed_one(
+        self, page: Page, fast: Solution, changed: Solution
+    ):
         page.controller.draw(rigid(fast), VIEW, None)
         assert not page["/rotor/blade_0/other"].visible
         page.controller.draw(changed, VIEW, None)
@@ -178,11 +194,15 @@ class TestOverlay:
 class TestRanges:
     def test_a_range_holds_across_designs_until_a_fit_is_asked_for(self, page: Page):
         view = replace(VIEW, field="Thrust dT/dr")
-        light, heavy = (solve(make_design(mu=0.3, mass_kg=mass)).require() for mass in (5200.0, 10500.0))
+        light, heavy = (
+            solve(make_design(mu=0.3, mass_kg=mass)).require() for mass in (5200.0, 10500.0)
+        )
         for solution in (light, heavy):
             page.controller.draw(solution, view, None)
             page.controller.draw_at_rest()
-        assert {held for _, held, _, _ in page.shown.calls} == {usual_range(FIELDS["Thrust dT/dr"], ROTOR)}
+        assert {held for _, held, _, _ in page.shown.calls} == {
+            usual_range(FIELDS["Thrust dT/dr"], ROTOR)
+        }
         for order, fits in (("Rescale", True), ("Default", False)):
             page.controller.order_range(order)
             page.controller.draw(heavy, replace(view, azimuth_deg=30.0 + 10.0 * fits), None)
@@ -202,13 +222,20 @@ class TestRanges:
                     low, high = usual_range(field, solution.design.rotor)
                     seen = np.quantile(values, (0.02, 0.98))
                     case = field.title, mu, low, high, seen
-                    hair = 1e-3 * (high - low)  # Where nothing is stalled the vortex is zero to some digits.
+                    # Where nothing is stalled the vortex is zero to some digits.
+                    hair = 1e-3 * (high - low)
                     assert np.mean((values < low - hair) | (values > high)) < 0.13, case
-                    assert field.two_sided or field.needs == "unsteady" or seen[1] - seen[0] > 0.18 * (high - low), case
+                    assert (
+                        field.two_sided
+                        or field.needs == "unsteady"
+                        or seen[1] - seen[0] > 0.18 * (high - low)
+                    ), case
 
 
 class TestWipe:
-    def test_a_stands_at_the_place_of_b_at_rest(self, page: Page, fast: Solution, changed: Solution):
+    def test_a_stands_at_the_place_of_b_at_rest(
+        self, page: Page, fast: Solution, changed: Solution
+    ):
         page.controller.draw(changed, replace(VIEW, wipe=True), None, fast)
         page.controller.draw_at_rest()
         assert page["/compared"].visible
@@ -260,7 +287,8 @@ class TestOverlays:
         page.controller.fade(fast, VIEW)
         assert page.shown.calls[-1][2]
         vivid, grey = (
-            np.frombuffer(bytes.fromhex(ink["map"]), np.uint8).reshape(-1, 3).astype(int) for _, ink in page.told("ink")
+            np.frombuffer(bytes.fromhex(ink["map"]), np.uint8).reshape(-1, 3).astype(int)
+            for _, ink in page.told("ink")
         )
         assert np.ptp(vivid, axis=1).mean() > 50
         assert np.array_equal(grey, np.repeat(grey[:, :1], 3, axis=1))

@@ -42,7 +42,10 @@ def difference(inputs: Inputs, name: str, step: float) -> float:
 @pytest.mark.parametrize("law", [law for law, entry in LAWS.items() if entry.inputs])
 def test_twist_sliders_agree_with_differences_of_trims(law: str, mu: float):
     inputs = replace(
-        Inputs(law=law, advance_ratio=mu), two_division=0.52, three_inner_break=0.41, three_outer_break=0.76
+        Inputs(law=law, advance_ratio=mu),
+        two_division=0.52,
+        three_inner_break=0.41,
+        three_outer_break=0.76,
     )
     found = twist_sensitivities(inputs, power_gradient(solve(inputs.design()).require()))
     assert tuple(found) == LAWS[law].inputs
@@ -64,12 +67,21 @@ def test_flight_sliders_agree_with_differences_of_another_step(mass: float):
     solution = solve(inputs.design()).require()
     found = at_once(flight_sensitivities(solution))
     assert tuple(found) == tuple(FLIGHT)
-    for name, step in (("advance_ratio", 3e-4), ("mass_t", 2e-3), ("altitude_m", 3.0), ("climb_m_s", 0.03)):
+    for name, step in (
+        ("advance_ratio", 3e-4),
+        ("mass_t", 2e-3),
+        ("altitude_m", 3.0),
+        ("climb_m_s", 0.03),
+    ):
         assert_allclose(found[name].slope, difference(inputs, name, step), rtol=1e-2)
 
 
 def test_the_documents_equations_have_no_climb():
-    found = at_once(flight_sensitivities(solve(Inputs(preset="thesis", **preset_inflow("thesis")).design()).require()))
+    found = at_once(
+        flight_sensitivities(
+            solve(Inputs(preset="thesis", **preset_inflow("thesis")).design()).require()
+        )
+    )
     assert tuple(found) == tuple(name for name in FLIGHT if name != "climb_m_s")
 
 
@@ -97,15 +109,23 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     faster = worth_row(found["advance_ratio"], solution.power, SI, 1e3)
     assert total(replace(inputs, advance_ratio=0.21)) > solution.power.total
     assert (faster.value[0], faster.way, faster.unit) == ("+", "down", "kW/0.01")
-    assert faster.sentence.startswith(f"Adv. ratio µ: 0.01 more changes power by {faster.value} ± 1.0")
+    assert faster.sentence.startswith(
+        f"Adv. ratio µ: 0.01 more changes power by {faster.value} ± 1.0"
+    )
     assert faster.sentence.endswith(" kW: sure. A lower value saves power.")
     twist = worth_row(SliderSensitivity("built_outer", -900.0), solution.power, SI)
-    assert (twist.value, twist.way, twist.unit) == ("−0.9 kW per °/R", "", "kW per °/R")  # Not known how sure.
+    # Not known how sure.
+    assert (twist.value, twist.way, twist.unit) == (
+        "−0.9 kW per °/R",
+        "",
+        "kW per °/R",
+    )
     bent = worth_row(SliderSensitivity("quadratic_curvature", -900.0), solution.power, SI)
     assert bent.unit == "kW per °/R²"
     assert twist.sentence.endswith("1°/R more changes power by −0.9 kW.")
     sure, unclear = (
-        worth_row(SliderSensitivity("built_outer", -900.0), solution.power, SI, band) for band in (400.0, 1100.0)
+        worth_row(SliderSensitivity("built_outer", -900.0), solution.power, SI, band)
+        for band in (400.0, 1100.0)
     )
     assert "by −0.9 ± 0.4 kW: sure. A higher value saves power." in sure.sentence
     assert unclear.sentence.endswith("by −0.9 ± 1.1 kW: unclear.")
@@ -116,7 +136,10 @@ def test_a_row_carries_the_sign_of_a_step_up_and_says_which_way_saves():
     assert (nothing.value, nothing.way) == ("no effect", "")
     optimum = worth_row(SliderSensitivity("built_outer", 3.0), solution.power, SI)
     assert (optimum.value, optimum.way) == ("flat here", "")
-    sizes = [worth_row(SliderSensitivity("mass_t", slope), solution.power, SI).size for slope in (3e4, 9e4, 9e5)]
+    sizes = [
+        worth_row(SliderSensitivity("mass_t", slope), solution.power, SI).size
+        for slope in (3e4, 9e4, 9e5)
+    ]
     assert sizes == sorted(set(sizes))  # A larger change has a longer arrow.
     assert sizes[-1] < 1.0
 
@@ -127,7 +150,9 @@ def test_twist_of_a_small_rotor_has_an_effect(rotor: str):
     inputs = with_rotor(Inputs(law="builtin"), rotor)
     solution = solve(inputs.design()).require()
     (step,) = (
-        one for name, one in twist_sensitivities(inputs, power_gradient(solution)).items() if name == "built_outer"
+        one
+        for name, one in twist_sensitivities(inputs, power_gradient(solution)).items()
+        if name == "built_outer"
     )
     row = worth_row(step, solution.power, SI, 1e-3)
     assert row.value == number(1e-3 * step.watts(), 2, sign=True)
@@ -162,10 +187,17 @@ def test_the_nearest_design_that_trims_has_what_its_sentence_names():
     nearest = nearest_trim(good, wanted, lambda inputs: solve(inputs.design()).converged, sentence)
     assert (nearest.altitude_m, nearest.advance_ratio) == (3000.0, 0.3)
     assert 0.0 <= 1e-3 * float(found[1]) - nearest.mass_t < slider("mass_t", SI).step
-    assert f"{math.floor(0.1 * float(found[1])) / 100.0:.2f} t at this speed" in SI.in_sliders(sentence)
-    assert f"{math.floor(0.1 * float(found[1]) - 10.0) / 100.0:.2f} t at" in SI.in_sliders(sentence, 100.0)
+    assert f"{math.floor(0.1 * float(found[1])) / 100.0:.2f} t at this speed" in SI.in_sliders(
+        sentence
+    )
+    assert f"{math.floor(0.1 * float(found[1]) - 10.0) / 100.0:.2f} t at" in SI.in_sliders(
+        sentence, 100.0
+    )
     assert "lb at this speed" in UNITS["Aviation"].in_sliders(sentence)
     both = nearest_trim(
-        good, wanted, lambda _: True, "The last trim found on the way there is at 9431 kg and advance ratio 0.279."
+        good,
+        wanted,
+        lambda _: True,
+        "The last trim found on the way there is at 9431 kg and advance ratio 0.279.",
     )
     assert (both.mass_t, both.advance_ratio) == pytest.approx((9.4, 0.275))

@@ -36,9 +36,13 @@ class TestCommand:
             assert command.main(["--port", str(port), "--no-browser"]) == 2
         error = capsys.readouterr().err
         assert error.count("\n") == 1
-        assert re.search(rf"127\.0\.0\.1:{port} cannot be used .*: choose another with --port", error)
+        assert re.search(
+            rf"127\.0\.0\.1:{port} cannot be used .*: choose another with --port", error
+        )
 
-    def test_missing_design_exits_2_with_one_line(self, capsys: pytest.CaptureFixture[str], tmp_path: Path):
+    def test_missing_design_exits_2_with_one_line(
+        self, capsys: pytest.CaptureFixture[str], tmp_path: Path
+    ):
         assert command.main(["--design", str(tmp_path / "none.json"), "--no-browser"]) == 2
         error = capsys.readouterr().err
         assert error.count("\n") == 1
@@ -51,7 +55,11 @@ class TestCommand:
 
     @pytest.mark.parametrize(("host", "lines"), [("127.0.0.1", 0), ("0.0.0.0", 2)])
     def test_who_opens_the_server_to_others_is_warned(
-        self, host: str, lines: int, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+        self,
+        host: str,
+        lines: int,
+        monkeypatch: pytest.MonkeyPatch,
+        capsys: pytest.CaptureFixture[str],
     ):
         class Started:
             address = "http://somewhere"
@@ -98,11 +106,15 @@ class TestCommand:
 class TestControls:
     @pytest.mark.parametrize("law", [law for law in LAWS if law not in NOT_ALWAYS])
     def test_inputs_go_through_the_widgets_unchanged(self, controls: DesignControls, law: str):
-        wanted = Inputs(law=law, advance_ratio=0.31, mass_t=9.1, altitude_m=1500.0, linear=-7.5, flapping=False)
+        wanted = Inputs(
+            law=law, advance_ratio=0.31, mass_t=9.1, altitude_m=1500.0, linear=-7.5, flapping=False
+        )
         controls.set_inputs(wanted)
         assert controls.inputs() == wanted
 
-    def test_a_hand_on_a_slider_goes_on_from_the_search_that_it_shows(self, controls: DesignControls):
+    def test_a_hand_on_a_slider_goes_on_from_the_search_that_it_shows(
+        self, controls: DesignControls
+    ):
         own, found = Inputs(law="linear"), Inputs(law="two", two_inner=-12.0, two_outer=-5.0)
         controls.set_inputs(own)
         controls.follow(found)
@@ -157,7 +169,12 @@ class TestControls:
 
         law = {"two_inner", "two_outer", "two_division"}
         assert shown(Inputs(law="two")) == {*law, "advance_ratio", "mass_t"}
-        assert shown(Inputs(law="two", climb_m_s=2.0)) == {*law, "advance_ratio", "mass_t", "climb_m_s"}
+        assert shown(Inputs(law="two", climb_m_s=2.0)) == {
+            *law,
+            "advance_ratio",
+            "mass_t",
+            "climb_m_s",
+        }
         controls._show_more("on")
         assert shown(Inputs(law="two")) == {*law, *FLIGHT}
         assert "climb_m_s" not in shown(Inputs(preset="thesis", law="two"))
@@ -168,7 +185,11 @@ class TestScene:
         scene = Scene(server.scene, uh60a_rotor("flight"), LIGHT)
         handles = dict(server.scene._handle_from_node_name)
         solution = solve(make_design(rotor="r22"))
-        for shown in (solve(make_design(mu=0.0)), solve(make_design(preset="thesis", mu=0.2)), solution):
+        for shown in (
+            solve(make_design(mu=0.0)),
+            solve(make_design(preset="thesis", mu=0.2)),
+            solution,
+        ):
             scene.fit(shown.design)
             scene.show(make_picture(shown, ViewState()))
         assert dict(server.scene._handle_from_node_name) == handles

@@ -50,7 +50,9 @@ class RecordingPage:
 
     def read(self) -> PageState:
         self.calls.append("read")
-        return replace(self.latest, inputs=self.inputs, view=self.view, sliders=None, preview=None, problem="")
+        return replace(
+            self.latest, inputs=self.inputs, view=self.view, sliders=None, preview=None, problem=""
+        )
 
     def counted_from(self, now: PageState) -> None:
         """It is never in Actuate."""
@@ -59,7 +61,9 @@ class RecordingPage:
         self.calls.append("pin_or_swap")
         return self.moves_sliders
 
-    def draw(self, now: PageState, solution: Solution, pinned: Solution | None, only_azimuth: bool) -> None:
+    def draw(
+        self, now: PageState, solution: Solution, pinned: Solution | None, only_azimuth: bool
+    ) -> None:
         self.calls.append("draw")
         self.frames.append(SimpleNamespace(now=now, solution=solution, only_azimuth=only_azimuth))
 
@@ -159,7 +163,9 @@ def test_inputs_without_a_design_keep_the_last_picture(session: Session):
 
 def test_trim_that_does_not_converge_shows_its_own_sentence(session: Session):
     page: Any = session.page
-    page.inputs = replace(Inputs(), advance_ratio=0.45, mass_t=11.0, altitude_m=4000.0, inflow="drees")
+    page.inputs = replace(
+        Inputs(), advance_ratio=0.45, mass_t=11.0, altitude_m=4000.0, inflow="drees"
+    )
     update(session)
     refused = solve(page.inputs.design())
     assert not refused.converged
@@ -200,10 +206,14 @@ def test_a_moving_slider_is_solved_to_the_digits_shown_and_at_rest_to_the_end(se
     assert not session._all_changed
 
 
-def test_a_moving_slider_refuses_only_what_is_solved_to_the_end(session: Session, monkeypatch: pytest.MonkeyPatch):
+def test_a_moving_slider_refuses_only_what_is_solved_to_the_end(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+):
     page, tried = update(session), list[float]()
 
-    def hardly(self: Analyses, design: Design, start: Solution | None, options: SolverOptions) -> Solution:
+    def hardly(
+        self: Analyses, design: Design, start: Solution | None, options: SolverOptions
+    ) -> Solution:
         tried.append(options.residual_tolerance)
         answer = analyse(design, start, options).solution
         return replace(answer, status=Status.NOT_CONVERGED) if len(tried) == 1 else answer
@@ -287,10 +297,21 @@ def test_the_page_is_kept_before_the_power_curve(session: Session, monkeypatch: 
 
     monkeypatch.setattr(session._curves, "sweep", sweep)
     update(session)
-    assert page.calls[-8:] == ["rest", "work", "kept", "sweep", "rest", "kept", "work", "work later"]
+    assert page.calls[-8:] == [
+        "rest",
+        "work",
+        "kept",
+        "sweep",
+        "rest",
+        "kept",
+        "work",
+        "work later",
+    ]
 
 
-def test_in_a_crowd_number_and_address_come_with_the_frame(session: Session, monkeypatch: pytest.MonkeyPatch):
+def test_in_a_crowd_number_and_address_come_with_the_frame(
+    session: Session, monkeypatch: pytest.MonkeyPatch
+):
     """What follows a frame waits 1.7 s with six pages; one that is loaded anew meanwhile would lose its edit."""
     monkeypatch.setattr(session_module, "UPDATES", SimpleNamespace(waiting=3, busy=True))
     page: Any = session.page

@@ -33,7 +33,8 @@ def test_blade_volume_is_that_of_its_sections():
     lifting = SHAPE.r >= ROTOR.blade.root_cutout - 1e-9
     y, z = SHAPE.rings[lifting, :, 0], SHAPE.rings[lifting, :, 1]
     area = 0.5 * np.abs(np.sum(y * np.roll(z, -1, axis=1) - z * np.roll(y, -1, axis=1), axis=1))
-    assert_allclose(area.mean(), 0.064 * ROTOR.reference_chord**2, rtol=0.06)  # 0.68 of thickness 9.45 % times chord.
+    # 0.68 of thickness 9.45 % times chord.
+    assert_allclose(area.mean(), 0.064 * ROTOR.reference_chord**2, rtol=0.06)
     lifted = float(np.trapezoid(area, SHAPE.outward[lifting]))
     mesh = trimesh.Trimesh(blade_mesh.blade_vertices(SHAPE, LinearTwist(0.0)), SHAPE.faces)
     shank = math.pi * 0.085**2 * (ROTOR.blade.root_cutout - ROTOR.blade.flap_hinge) * ROTOR.radius
@@ -46,7 +47,9 @@ def test_twist_is_zero_at_three_quarters_and_exaggeration_multiplies_it():
     flat = blade_mesh.blade_vertices(SHAPE, LinearTwist(0.0))
     last = len(SHAPE.r) - 1
     zero = section_angle(flat, last)
-    assert_allclose(section_angle(thrice, last) - zero, 3.0 * (section_angle(once, last) - zero), rtol=1e-9)
+    assert_allclose(
+        section_angle(thrice, last) - zero, 3.0 * (section_angle(once, last) - zero), rtol=1e-9
+    )
     near = int(np.abs(SHAPE.r - 0.75).argmin())
     expected = math.radians(-10.0) * (SHAPE.r[near] - 0.75)
     assert_allclose(section_angle(once, near) - section_angle(flat, near), expected, atol=1e-9)
@@ -55,7 +58,11 @@ def test_twist_is_zero_at_three_quarters_and_exaggeration_multiplies_it():
 class TestSweptTip:
     def test_the_tip_of_the_uh60a_is_swept_by_20_degrees_from_0_929(self):
         """The quarter chord lies 0.071 R tan 20° = 211 mm behind the axis; the structural model of SONATA has 196."""
-        assert_allclose(blade_mesh.swept_back(ROTOR, 1.0), 0.071 * 8.1788 * math.tan(math.radians(20.0)), rtol=1e-12)
+        assert_allclose(
+            blade_mesh.swept_back(ROTOR, 1.0),
+            0.071 * 8.1788 * math.tan(math.radians(20.0)),
+            rtol=1e-12,
+        )
         flat = blade_mesh.blade_vertices(SHAPE, LinearTwist(0.0))
         points = SHAPE.rings.shape[1]
         nose = flat[: len(SHAPE.r) * points].reshape(-1, points, 3)[:, points // 2]
@@ -65,7 +72,12 @@ class TestSweptTip:
 
     @pytest.mark.parametrize("name", ["r22", "s61"])
     def test_other_rotors_have_straight_blades(self, name: str):
-        assert blade_mesh.swept_back(shipped_aircraft(name).rotor_for("flight"), [0.5, 0.95, 1.0]).max() == 0.0
+        assert (
+            blade_mesh.swept_back(
+                shipped_aircraft(name).rotor_for("flight"), [0.5, 0.95, 1.0]
+            ).max()
+            == 0.0
+        )
 
 
 # Airframe, rotor head and their primitives
@@ -87,7 +99,12 @@ def parts_of(mesh: Mesh) -> list[trimesh.Trimesh]:
 class TestEveryRotor:
     def test_all_parts_are_closed_and_face_outward(self, name: str):
         craft = airframe(rotor_named(name), shipped_aircraft(name).tail_rotor)
-        for mesh in (craft.body, craft.dark, rotor_head(rotor_named(name)), mast(rotor_named(name).radius)):
+        for mesh in (
+            craft.body,
+            craft.dark,
+            rotor_head(rotor_named(name)),
+            mast(rotor_named(name).radius),
+        ):
             parts = parts_of(mesh)
             assert parts
             assert all(part.is_watertight and part.volume > 0.0 for part in parts)
@@ -110,7 +127,9 @@ class TestEveryRotor:
         assert len(arms) == rotor.blades
 
 
-@pytest.mark.parametrize(("name", "length"), [("s61", 17.96), ("bo105", 8.56), ("gazelle", 9.53), ("r22", 6.30)])
+@pytest.mark.parametrize(
+    ("name", "length"), [("s61", 17.96), ("bo105", 8.56), ("gazelle", 9.53), ("r22", 6.30)]
+)
 def test_each_helicopter_has_its_length_and_its_tail_rotor(name: str, length: float):
     aircraft = shipped_aircraft(name)
     rotor, tail = rotor_named(name), aircraft.tail_rotor

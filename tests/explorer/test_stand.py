@@ -8,7 +8,13 @@ from explorer.charts.measured import MeasuredChart
 from explorer.export.provenance import condition_line
 from explorer.model.inputs import OPENING, Inputs, with_rotor
 from explorer.model.session_state import Pinned
-from explorer.model.stand import TRIM_TITLES, StandInputs, equivalent_stand, load_of, measured_conditions
+from explorer.model.stand import (
+    TRIM_TITLES,
+    StandInputs,
+    equivalent_stand,
+    load_of,
+    measured_conditions,
+)
 from explorer.text.design_words import flight_name, flight_words
 from explorer.text.status import row_of, validated
 from explorer.widgets.controls import DesignControls
@@ -27,9 +33,14 @@ def test_the_wind_tunnel_begins_with_what_the_flight_had():
     stand = equivalent_stand(flight)
     tested = solve(Inputs(law="builtin", advance_ratio=0.2, stand=stand).design())
     assert tested.power.main_rotor == pytest.approx(flight.power.main_rotor, rel=0.02)
-    assert load_of(tested, "thrust_n") == pytest.approx(flight.ct * flight.design.thrust_unit, rel=2e-3)
+    assert load_of(tested, "thrust_n") == pytest.approx(
+        flight.ct * flight.design.thrust_unit, rel=2e-3
+    )
     held = solve(
-        replace(OPENING, stand=replace(stand, load="collective_deg", value=load_of(tested, "collective_deg"))).design()
+        replace(
+            OPENING,
+            stand=replace(stand, load="collective_deg", value=load_of(tested, "collective_deg")),
+        ).design()
     )
     assert held.ct_over_sigma == pytest.approx(stand.value, rel=5e-3)
 
@@ -37,8 +48,13 @@ def test_the_wind_tunnel_begins_with_what_the_flight_had():
 def test_a_flies_along_into_a_test_and_back():
     flight, tested = solve(OPENING.design()), solve(replace(OPENING, stand=StandInputs()).design())
     assert Pinned(OPENING, flight).design(tested.design).models.trim == "wind-tunnel"
-    assert Pinned(replace(OPENING, stand=StandInputs()), tested).design(flight.design) == flight.design
-    assert Pinned(OPENING, flight).sliders(replace(OPENING, stand=StandInputs()), along=True).stand == StandInputs()
+    assert (
+        Pinned(replace(OPENING, stand=StandInputs()), tested).design(flight.design) == flight.design
+    )
+    assert (
+        Pinned(OPENING, flight).sliders(replace(OPENING, stand=StandInputs()), along=True).stand
+        == StandInputs()
+    )
 
 
 def test_a_test_in_words():
@@ -63,7 +79,9 @@ class TestWidgets:
         choose("collective_deg", 6.5)
         assert controls.inputs().stand == StandInputs(load="collective_deg", value=6.5)
         choose("trim", "controls")
-        assert controls.inputs().stand == StandInputs("controls", "collective_deg", 6.5, flapping="free")
+        assert controls.inputs().stand == StandInputs(
+            "controls", "collective_deg", 6.5, flapping="free"
+        )
         choose("trim", "flight")
         assert controls.inputs().stand is None
         assert not panel.form._handles["measured_test"].visible
@@ -126,9 +144,17 @@ def test_the_chip_says_how_well_the_region_is_validated():
     record = validated(solve(FORWARD.design()))
     assert record.words == "measured: rms 5.6 %"
     assert "missed" in record.sentence
-    assert validated(solve(replace(FORWARD, inflow="uniform").design())).words == "measured: rms 0.5 %"
-    assert validated(solve(replace(FORWARD, inflow="drees").design())).words == "not compared with this inflow"
-    assert "twist as built" in validated(solve(replace(FORWARD, law="linear", linear=-30.0).design())).sentence
+    assert (
+        validated(solve(replace(FORWARD, inflow="uniform").design())).words == "measured: rms 0.5 %"
+    )
+    assert (
+        validated(solve(replace(FORWARD, inflow="drees").design())).words
+        == "not compared with this inflow"
+    )
+    assert (
+        "twist as built"
+        in validated(solve(replace(FORWARD, law="linear", linear=-30.0).design())).sentence
+    )
     fast = validated(solve(replace(FORWARD, advance_ratio=0.35).design()))
     assert fast.words == "outside the test range"
     assert "µ 0.35, tested 0.125…0.2" in fast.sentence
@@ -139,5 +165,9 @@ def test_the_chip_says_how_well_the_region_is_validated():
     assert "rate of climb 3 m/s, tested in level flight" in rising.sentence
     assert "in hover only" in uh60a.sentence
     for rotor in ("castles-gray", "castles-gray-twisted"):
-        stand = validated(solve(make_design(rotor=rotor, mu=0.0, trim="wind-tunnel", stand={"ct_over_sigma": 0.08})))
+        stand = validated(
+            solve(
+                make_design(rotor=rotor, mu=0.0, trim="wind-tunnel", stand={"ct_over_sigma": 0.08})
+            )
+        )
         assert "This project has no usable measurement of what twist saves." in stand.sentence

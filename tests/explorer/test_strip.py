@@ -81,13 +81,17 @@ class TestPowerChange:
         curve.design[:] = 700.0 + 8000.0 * (np.array(SWEEP) - 0.15) ** 2
         chart = total_power_chart(curve, 0.2, 720e3)
         assert (chart.y.label, chart.value) == ("kW", "least near µ 0.15")
-        assert_allclose(lines(chart)[0].y, 700.0 + 8000.0 * (np.array(lines(chart)[0].x) - 0.15) ** 2)
+        assert_allclose(
+            lines(chart)[0].y, 700.0 + 8000.0 * (np.array(lines(chart)[0].x) - 0.15) ** 2
+        )
         assert dots(chart) == [(0.0, curve.design[0], "hover"), (0.2, 720.0, "now")]
 
     def test_the_bowl_fills_its_chart_and_the_whole_is_at_hand(self):
         """Of a bowl from 1,550 over 870 to 3,850 kW, whose 35 kW about the least were 1 % of the axis."""
         curve = self.curve(0.0)
-        curve.design[:] = np.where(np.array(SWEEP) < 0.17, 870.0 + 23500.0 * (np.array(SWEEP) - 0.17) ** 2, 0.0)
+        curve.design[:] = np.where(
+            np.array(SWEEP) < 0.17, 870.0 + 23500.0 * (np.array(SWEEP) - 0.17) ** 2, 0.0
+        )
         curve.design[7:] = 870.0 + 38000.0 * (np.array(SWEEP)[7:] - 0.17) ** 2
         near = total_power_chart(curve, 0.2, 904e3).y
         drawn = drawn_chart(total_power_chart(curve, 0.2, 904e3)).y
@@ -117,8 +121,12 @@ class TestPowerChange:
         assert roles(chart)[0] == "limit"
         assert_allclose(lines(chart)[0].y, 2327.0)
         curve.design[:] = 700.0
-        assert total_power_chart(curve, 0.2, 700e3, design=black_hawk).value.startswith("least near")
-        assert "limit" not in roles(total_power_chart(curve, 0.2, 700e3, design=make_design(rotor="s61")))
+        assert total_power_chart(curve, 0.2, 700e3, design=black_hawk).value.startswith(
+            "least near"
+        )
+        assert "limit" not in roles(
+            total_power_chart(curve, 0.2, 700e3, design=make_design(rotor="s61"))
+        )
 
     def test_speeds_of_endurance_and_range_and_the_walls(self):
         """Power a/µ + bµ³ is least at (a/3b)^¼, power over speed a/µ² + bµ² at (a/b)^¼."""
@@ -128,13 +136,21 @@ class TestPowerChange:
             curve.design[:] = np.where((mus > 0.06) & (mus < 0.4), a / mus + b * mus**3, math.nan)
         plain = total_power_chart(curve, 0.2, 420e3)
         chart, fastest = with_speeds(plain, curve, design)
-        pressed = {one.names[0]: one.x[0] for one in chart.series if isinstance(one, Points) and one.mark == "ring"}
+        pressed = {
+            one.names[0]: one.x[0]
+            for one in chart.series
+            if isinstance(one, Points) and one.mark == "ring"
+        }
         assert pressed == {
             "endurance": pytest.approx((a / (3.0 * b)) ** 0.25, abs=0.002),
             "range": pytest.approx((a / b) ** 0.25, abs=0.002),
         }
         last = mus[mus < 0.4][-1]
-        assert (fastest, [rule.at for rule in chart.rules]) == (last, [last])  # The engines give more.
+        # The engines give more.
+        assert (fastest, [rule.at for rule in chart.rules]) == (
+            last,
+            [last],
+        )
         curve.design[:] *= 5.0
         meets = np.linspace(0.2, 0.4, 20001)
         wall = meets[np.argmin(np.abs(5.0 * (a / meets + b * meets**3) - 2327.0))]
@@ -142,7 +158,10 @@ class TestPowerChange:
         assert fastest == pytest.approx(wall, abs=0.002)
         assert len(chart.rules) == 2
         climbing = replace(design, condition=replace(design.condition, climb_speed=3.0))
-        assert not any(isinstance(one, Points) and one.action for one in with_speeds(plain, curve, climbing)[0].series)
+        assert not any(
+            isinstance(one, Points) and one.action
+            for one in with_speeds(plain, curve, climbing)[0].series
+        )
 
     def test_autorotation_is_marked_below_zero(self):
         curve = self.curve(0.0)
@@ -171,7 +190,12 @@ class TestPowerChange:
 class TestAlpha:
     def test_lines_and_least_margin(self, cruise: Solution, linear: Solution):
         chart = alpha_chart(cruise, linear, 65.0)
-        assert roles(chart) == ["limit", "reference", "this"]  # The lower limit lies below the axis.
+        # The lower limit lies below the axis.
+        assert roles(chart) == [
+            "limit",
+            "reference",
+            "this",
+        ]
         lower, upper, alpha = angles_along(cruise, 65.0)
         assert_allclose(line(chart, "this"), alpha)
         margin = float(np.nanmin(np.minimum(upper - alpha, alpha - lower)))
@@ -188,13 +212,18 @@ class TestAlpha:
         assert chart.value == "stalled"
         assert chart.note.startswith("Stalled between 0.")
         without = replace(heavy, design=with_switches(heavy.design, ("stall",)))
-        assert (alpha_chart(without, None, 65.0).value, roles(alpha_chart(without, None, 65.0))) == ("", ["this"])
+        assert (
+            alpha_chart(without, None, 65.0).value,
+            roles(alpha_chart(without, None, 65.0)),
+        ) == ("", ["this"])
 
 
 class TestLift:
     def test_the_blades_carry_the_thrust(self):
         made = make_design(mu=0.2)
-        cruise = solve(replace(made, models=replace(made.models, azimuths=24))).require()  # As solved.
+        cruise = solve(
+            replace(made, models=replace(made.models, azimuths=24))
+        ).require()  # As solved.
         design = cruise.design
         per_blade = float(cruise.disk.dr @ lift_per_metre(cruise)) * design.rotor.radius
         assert_allclose(per_blade * design.rotor.blades, cruise.ct * design.thrust_unit, rtol=1e-9)
@@ -223,7 +252,9 @@ def test_the_band_of_the_curve_is_that_of_its_trims(bands: Bands):
 @pytest.mark.parametrize("bands", [(), ((0.0, 9e3),), ((0.6, 9e3), (0.7, 9e3))])
 def test_a_curve_without_band_stays_as_it_is(bands: Bands):
     mu = np.array(SWEEP)
-    chart = total_power_chart(PowerCurve(900.0 + mu, 900.0 + mu, np.full(len(mu), math.nan)), 0.2, 900e3)
+    chart = total_power_chart(
+        PowerCurve(900.0 + mu, 900.0 + mu, np.full(len(mu), math.nan)), 0.2, 900e3
+    )
     assert with_band(chart, bands, SI) == chart
 
 
@@ -234,7 +265,9 @@ def test_the_band_lies_about_the_curve(bands: Bands):
     assert isinstance(first, Band)
     assert rest[0] == replace(rest[0], filled=False)
     assert rest[1:] == list(power_change_chart(curve, 0.2, -20e3, "A").series)[1:]
-    assert 0.5 * (np.array(first.low) + np.array(first.high)) == pytest.approx(-100.0 * np.array(first.x))
+    assert 0.5 * (np.array(first.low) + np.array(first.high)) == pytest.approx(
+        -100.0 * np.array(first.x)
+    )
     assert 1e3 * (np.array(first.high) - np.array(first.low)) == pytest.approx(
         2.0 * band_along(bands, np.array(first.x))
     )

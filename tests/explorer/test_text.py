@@ -40,7 +40,9 @@ class TestInputs:
     def test_the_models_in_words_name_the_inflow_in_use(self):
         hover = Inputs(advance_ratio=0.0)
         assert ": annulus balance, " in model_words(hover.design())
-        assert ": closed form, eq. (3.3), " in model_words(replace(hover, hover_inflow="closed-form").design())
+        assert ": closed form, eq. (3.3), " in model_words(
+            replace(hover, hover_inflow="closed-form").design()
+        )
         assert model_words(Inputs(tip_loss=False).design()).endswith(": Lifting line, no tip loss")
 
     def test_baselines(self):
@@ -65,7 +67,10 @@ class TestReadout:
 
     def test_change_against_the_baseline(self, cruise: Solution):
         dearer = replace(
-            cruise, last_power=replace(cruise.power, profile=cruise.power.profile + 0.1 * cruise.power.total)
+            cruise,
+            last_power=replace(
+                cruise.power, profile=cruise.power.profile + 0.1 * cruise.power.total
+            ),
         )
         assert "+10.0 %" in readout.power_panel(dearer, cruise)
         assert re.search(r"−9\.1 %", readout.power_panel(cruise, dearer))
@@ -95,7 +100,11 @@ class TestReadout:
             controls=replace(cruise.controls, collective=math.nan),
             ct=math.inf,
         )
-        for html in (readout.power_panel(broken, cruise), readout.trim_panel(broken), provenance(broken)):
+        for html in (
+            readout.power_panel(broken, cruise),
+            readout.trim_panel(broken),
+            provenance(broken),
+        ):
             assert not re.search(r"\b(nan|inf)\b", html, re.IGNORECASE)
 
     def test_kappa_and_the_bound_beside_it(self, cruise: Solution):
@@ -134,10 +143,14 @@ class TestPowerCurves:
 
     def test_it_gives_way_before_each_trim_while_others_wait(self, monkeypatch: pytest.MonkeyPatch):
         trims, one = list[Design](), solve(LINEAR)
-        monkeypatch.setattr("explorer.charts.plots.solve", lambda design, start: trims.append(design) or one)
+        monkeypatch.setattr(
+            "explorer.charts.plots.solve", lambda design, start: trims.append(design) or one
+        )
         assert list(PowerCurves().sweep(LINEAR, LINEAR)) == []
         alone = len(trims)
-        monkeypatch.setattr("explorer.charts.plots.UPDATES", SimpleNamespace(crowded=True, waiting=0))
+        monkeypatch.setattr(
+            "explorer.charts.plots.UPDATES", SimpleNamespace(crowded=True, waiting=0)
+        )
         for k, _ in enumerate(PowerCurves().sweep(LINEAR, LINEAR)):
             assert len(trims) == alone + k
         assert len(trims) == 2 * alone == 2 * len(plots.SWEEP)
@@ -160,17 +173,30 @@ class TestPowerCurves:
         assert not np.isfinite(curve.design[:3]).any()
         assert np.isfinite(curve.design[3:]).all()
         words = autorotation_words(curve)
-        driven = [mu for mu, one in zip(plots.SWEEP, answers, strict=True) if one.converged and one.power.total < 0.0]
+        driven = [
+            mu
+            for mu, one in zip(plots.SWEEP, answers, strict=True)
+            if one.converged and one.power.total < 0.0
+        ]
         assert words.startswith(f"Autorotation between µ {driven[0]:g} and {driven[-1]:g}")
         assert words.endswith("No solution below µ 0.075: vortex ring state.")
 
-    def test_newer_input_before_the_coarse_curve_is_known_ends_the_sweep(self, monkeypatch: pytest.MonkeyPatch):
+    def test_newer_input_before_the_coarse_curve_is_known_ends_the_sweep(
+        self, monkeypatch: pytest.MonkeyPatch
+    ):
         """Old enough, it is swept coarsely; fresh enough, or slow, frames come first, and it is not tried at once."""
-        monkeypatch.setattr("explorer.charts.plots.OLD_CURVE_S", math.inf)  # A busy machine sweeps more slowly.
-        curves, design, next_one = PowerCurves(haste=math.inf), LINEAR, replace(LINEAR, twist=LinearTwist(-0.16))
+        # A busy machine sweeps more slowly.
+        monkeypatch.setattr("explorer.charts.plots.OLD_CURVE_S", math.inf)
+        curves, design, next_one = (
+            PowerCurves(haste=math.inf),
+            LINEAR,
+            replace(LINEAR, twist=LinearTwist(-0.16)),
+        )
         assert at_once(curves.sweep(design, baseline_of(design), lambda: True))
         assert not at_once(curves.sweep(next_one, baseline_of(next_one), lambda: True))
-        assert np.isfinite(curves.known(next_one, baseline_of(next_one)).design[1:10]).all()  # The one before stays.
+        assert np.isfinite(
+            curves.known(next_one, baseline_of(next_one)).design[1:10]
+        ).all()  # The one before stays.
         hasty, calls = PowerCurves(haste=0.0), itertools.count()
         assert not at_once(hasty.sweep(design, design, lambda: True))
         assert hasty.recent
@@ -206,13 +232,26 @@ def test_a_search_that_has_found_nothing_yet_has_its_twist_as_built(law: str):
 
 
 def test_a_test_stand_has_no_fuselage_and_no_tail_rotor():
-    stand = make_design(rotor="xv15", mu=0.17, stand={"ct_over_sigma": 0.08, "shaft_tilt_deg": 15.0})
+    stand = make_design(
+        rotor="xv15", mu=0.17, stand={"ct_over_sigma": 0.08, "shaft_tilt_deg": 15.0}
+    )
     flight = make_design()
     assert list(readout.part_titles(stand).values()) == ["Induced", "Profile", "Propulsive"]
-    assert list(readout.part_titles(flight).values()) == ["Induced", "Profile", "Parasite", "Tail rotor"]
+    assert list(readout.part_titles(flight).values()) == [
+        "Induced",
+        "Profile",
+        "Parasite",
+        "Tail rotor",
+    ]
     assert readout.part_titles(flight, stand)["parasite"] == "Parasite, propulsive"
     climbing = make_design(climb_m_s=4.0)
-    assert list(readout.part_titles(climbing).values()) == ["Induced", "Profile", "Parasite", "Climb", "Tail rotor"]
+    assert list(readout.part_titles(climbing).values()) == [
+        "Induced",
+        "Profile",
+        "Parasite",
+        "Climb",
+        "Tail rotor",
+    ]
     assert list(readout.part_titles(flight, climbing)) == list(readout.part_titles(climbing))
     assert "326 kW" in readout.power_panel(solve(climbing), None)
     solution = solve(stand)
@@ -220,7 +259,9 @@ def test_a_test_stand_has_no_fuselage_and_no_tail_rotor():
     html = readout.power_panel(solution, None)
     assert "Propulsive force times airspeed" in html
     assert "Parasite" not in html
-    assert "propulsive" in why(solution, solve(replace(stand, condition=replace(stand.condition, advance_ratio=0.3))))
+    assert "propulsive" in why(
+        solution, solve(replace(stand, condition=replace(stand.condition, advance_ratio=0.3)))
+    )
 
 
 # The trust page

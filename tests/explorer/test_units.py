@@ -10,7 +10,18 @@ import viser
 
 from explorer.model.inputs import ROWS, Inputs
 from explorer.model.sliders import SLIDERS, limits, slider
-from explorer.model.units import AVIATION, HORSEPOWER, KNOT, SI, UNITS, WATT, form_of, shown, slider_input, units_of
+from explorer.model.units import (
+    AVIATION,
+    HORSEPOWER,
+    KNOT,
+    SI,
+    UNITS,
+    WATT,
+    form_of,
+    shown,
+    slider_input,
+    units_of,
+)
 from explorer.text import readout
 from explorer.text.design_words import flight_name
 from explorer.widgets.controls import DesignControls
@@ -26,7 +37,11 @@ def test_factors_by_definition():
     assert KNOT.size * 3600.0 == pytest.approx(1852.0)
     by_symbol = {"W": 1.0, "kW": 1000.0, "t": 1000.0, "m": 1.0, "lb": 0.45359237, "ft": 0.3048, "ft/min": 0.00508,
                  "m/s": 1.0, "km/h": 1000.0 / 3600.0}  # fmt: skip
-    every = {unit for own in UNITS.values() for unit in (*own.power, *own.speed, own.mass, own.altitude, own.climb)}
+    every = {
+        unit
+        for own in UNITS.values()
+        for unit in (*own.power, *own.speed, own.mass, own.altitude, own.climb)
+    }
     named = {unit.symbol: unit.size for unit in {*every, WATT} - {HORSEPOWER, KNOT}}
     assert named == pytest.approx(by_symbol, rel=1e-12)
 
@@ -34,7 +49,9 @@ def test_factors_by_definition():
 def test_the_chosen_unit_comes_first(cruise: Solution):
     for units, first, second in ((SI, "kW", "hp"), (AVIATION, "hp", "kW")):
         html = readout.power_panel(cruise, None, units)
-        assert html.index(f"{units.watts(cruise.power.total)}</span>") < html.index(f" {second}</span>")
+        assert html.index(f"{units.watts(cruise.power.total)}</span>") < html.index(
+            f" {second}</span>"
+        )
         assert f" {first}</td>" in html
         assert f" {second}</td>" not in html
         both = readout.compared_power_panel(cruise, cruise, units)
@@ -48,9 +65,14 @@ def test_the_chosen_unit_comes_first(cruise: Solution):
 def test_names_say_the_flight_in_the_chosen_units_and_what_is_off():
     inputs = Inputs(mass_t=9.0, altitude_m=1524.0, flapping=False, hub_loss=False)
     assert flight_name(inputs) == "µ 0.2, 9 t, 1\u2009524 m, no flapping, no root loss"
-    assert flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009348 lb, 5\u2009000 ft"
+    assert (
+        flight_name(Inputs(altitude_m=1524.0), AVIATION) == "µ 0.2, 18\u2009348 lb, 5\u2009000 ft"
+    )
     assert flight_name(Inputs(climb_m_s=5.0)) == "µ 0.2, climb 5.0 m/s, 8.32 t"
-    assert flight_name(Inputs(climb_m_s=-2.54), AVIATION) == "µ 0.2, descent 500 ft/min, 18\u2009348 lb"
+    assert (
+        flight_name(Inputs(climb_m_s=-2.54), AVIATION)
+        == "µ 0.2, descent 500 ft/min, 18\u2009348 lb"
+    )
     assert flight_name(Inputs(climb_m_s=5.0, preset="thesis")) == "µ 0.2, 8.32 t"
 
 
@@ -63,7 +85,9 @@ def test_an_input_is_itself_after_other_units(name: str):
     low, high = limits(name)
     for units in UNITS.values():
         form = slider(name, units)
-        assert low <= slider_input(row, form.low, units) <= slider_input(row, form.high, units) <= high
+        assert (
+            low <= slider_input(row, form.low, units) <= slider_input(row, form.high, units) <= high
+        )
     assert slider("linear", AVIATION) is SLIDERS["linear"]
 
 
@@ -91,7 +115,9 @@ def test_a_model_rotor_has_watts_and_a_propeller_climbs():
         assert (units_of(title, uh60a), small.power[0].symbol) == (units, "W")
         assert (small.other_watts(233.0), SI.other_watts(149e3)) == ("0.31 hp", "200 hp")
         assert (small.watts(100.2), small.mass) == ("100 W", units.mass)
-        assert slider_input(ROWS["climb_m_s"], slider("climb_m_s", small, model).high, small) == pytest.approx(100.0)
+        assert slider_input(
+            ROWS["climb_m_s"], slider("climb_m_s", small, model).high, small
+        ) == pytest.approx(100.0)
     for ideal, symbol in ((998.0, "W"), (1002.0, "kW")):
         weight = (ideal * math.sqrt(2.0 * 1.225 * math.pi * model.rotor.radius**2)) ** (2.0 / 3.0)
         assert units_of("SI", replace(model, mass=weight / 9.80665)).power[0].symbol == symbol
@@ -141,7 +167,9 @@ def test_a_value_that_no_hand_moved_is_kept_in_all_digits(form: WidgetForm, valu
 @pytest.mark.parametrize(
     ("low", "high", "value"), [(9000.0, 9500.0, 9100.0), (-900.0, -100.0, -200.0), (0.0, 9.0, 4.0)]
 )
-def test_a_slider_with_other_ends_never_has_its_value_outside(form: WidgetForm, low: float, high: float, value: float):
+def test_a_slider_with_other_ends_never_has_its_value_outside(
+    form: WidgetForm, low: float, high: float, value: float
+):
     handle, seen = form._handles["altitude_m"], []
     handle.on_update(lambda event: seen.append((handle.min, event.target.value, handle.max)))
     form.fit("altitude_m", Slider("Altitude [m]", low, high, 1.0), value)

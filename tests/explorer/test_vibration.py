@@ -59,7 +59,9 @@ def on_disk(solution: Solution, psi: float, points: Array) -> Array:
     pose = blade_pose(solution.controls, psi, hinge, solution.design)
     at = rotate(pose.wxyz, points)
     cos, sin = math.cos(psi), math.sin(psi)
-    return np.stack([at[:, 0] * cos + at[:, 1] * sin, at[:, 1] * cos - at[:, 0] * sin, at[:, 2]], axis=1)
+    return np.stack(
+        [at[:, 0] * cos + at[:, 1] * sin, at[:, 1] * cos - at[:, 0] * sin, at[:, 2]], axis=1
+    )
 
 
 class TestDrawnBlade:
@@ -77,8 +79,13 @@ class TestDrawnBlade:
         c, radius = bent.controls, bent.design.rotor.radius
         flap = c.coning + c.flap_1c * math.cos(psi) + c.flap_1s * math.sin(psi)
         shape = blade_shape(bent.design.rotor)
-        expected = [np.interp(shape.r, b.r, radius * own, left=0.0) for own in (v, w - flap * (b.r - b.r[0]))]
-        crooked, plain = (flown_form(bent, VIEW, psi, shown).vertices(shape) for shown in (True, False))
+        expected = [
+            np.interp(shape.r, b.r, radius * own, left=0.0)
+            for own in (v, w - flap * (b.r - b.r[0]))
+        ]
+        crooked, plain = (
+            flown_form(bent, VIEW, psi, shown).vertices(shape) for shown in (True, False)
+        )
         moved = crooked - plain
         rings = moved[: -2 * PAGE.points - 2].reshape(-1, PAGE.points, 3)
         assert np.ptp(rings, axis=1).max() < 1e-12  # Each section as a whole.
@@ -95,7 +102,9 @@ class TestDrawnBlade:
             assert_allclose(form.vertices(shape), expected.vertices(shape), atol=1e-9)
         assert np.abs(forms[0].vertices(shape) - forms[1].vertices(shape)).max() > 0.1
 
-    def test_files_show_it_straight_and_bending_off_is_straight(self, bent: Solution, straight: Solution):
+    def test_files_show_it_straight_and_bending_off_is_straight(
+        self, bent: Solution, straight: Solution
+    ):
         """Nothing in them could say that it is drawn larger."""
         assert all(form.bent is None for form in make_picture(bent, VIEW, bent=False).blades.forms)
         assert drawn_bending(straight, [0.5, 1.0], 1.0) is None
@@ -111,7 +120,9 @@ def page() -> PanelPage:
 
 
 class TestPanel:
-    def test_the_index_comes_at_once_and_its_band_at_rest(self, page: PanelPage, bent: Solution, loads: HubLoads):
+    def test_the_index_comes_at_once_and_its_band_at_rest(
+        self, page: PanelPage, bent: Solution, loads: HubLoads
+    ):
         page.show(state(bent))
         next(page.updater.work(soon=False))  # Newer input leaves the band for later.
         row = page.shown["vibration"]
@@ -126,14 +137,20 @@ class TestPanel:
         assert re.fullmatch(r"[+−]\d+\.\d kW here", page.shown["switch.bending"])
         assert page.shown["hub_labels"][0].text == "bending × 10"
 
-    def test_it_is_compared_with_a_also_where_a_is_rigid(self, page: PanelPage, bent: Solution, straight: Solution):
+    def test_it_is_compared_with_a_also_where_a_is_rigid(
+        self, page: PanelPage, bent: Solution, straight: Solution
+    ):
         """3/rev twist against the same blade without; A's index is that of the same blade with bending."""
-        twisted = solve(inputs_from("1;uh60a;mu=0.3;bending=true;twist_per_rev=3:1:60").design()).require()
+        twisted = solve(
+            inputs_from("1;uh60a;mu=0.3;bending=true;twist_per_rev=3:1:60").design()
+        ).require()
         page.show(state(twisted, straight))
         assert page.shown["vibration"].change == ""
         page.rest()
         row, of_a = page.shown["vibration"], hub_loads(bent, band=False)
-        percent, low, high = (float(end.replace("−", "-")) for end in re.findall(r"[+−]?\d+", row.change))
+        percent, low, high = (
+            float(end.replace("−", "-")) for end in re.findall(r"[+−]?\d+", row.change)
+        )
         assert percent == pytest.approx(100.0 * (float(row.index) / of_a.index - 1.0), abs=2.0)
         assert low <= percent <= high
         assert low < high
@@ -146,7 +163,9 @@ class TestPanel:
         assert page.shown["vibration"].sentence.startswith("Hub loads are not shown below µ 0.2")
         assert page.shown["vibration"].index == ""
         assert [one.text for one in page.shown["hub_labels"]] == ["bending × 10"]
-        page.show(state(solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.2).design()).require()))
+        page.show(
+            state(solve(replace(with_rotor(FAST, "r22"), advance_ratio=0.2).design()).require())
+        )
         assert "the stiffness of the Robinson R22 blade" in page.shown["vibration"].sentence
         assert page.shown["hub_labels"] == []
         assert page.shown["switch.bending"].startswith("The stiffness of the Robinson R22 blade")

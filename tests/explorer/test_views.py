@@ -42,10 +42,14 @@ def solved(inputs: Inputs) -> Solution:
     return solve(inputs.design()).require()
 
 
-def now_at(inputs: Inputs, a: Inputs | None = None, units: str = "SI", drawer: str = "") -> PageState:
+def now_at(
+    inputs: Inputs, a: Inputs | None = None, units: str = "SI", drawer: str = ""
+) -> PageState:
     """What a page knows of these inputs once it rests, but for the answers; `a`: is pinned."""
     solution, pin = solved(inputs), None if a is None else Pinned(a, solved(a))
-    state = SessionState(inputs, ViewState(units=units), solution, solve(baseline_of(solution.design)), None, pin)
+    state = SessionState(
+        inputs, ViewState(units=units), solution, solve(baseline_of(solution.design)), None, pin
+    )
     state = state if pin is None else replace(state, pinned=pin.solution)
     curve = PowerCurves().known(solution.design, state.reference.design)
     return PageState(inputs, solution.design, state, ui=OpenPanels(drawer=drawer), curve=curve)
@@ -56,7 +60,9 @@ def known(now: PageState, *works: PanelWork) -> PageState:
     results = {work: at_once(work.run(lambda: None)) for work in works}
     latest = {work.name: result for work, result in results.items()}
     answers = {**now.answers, **{work.key: result for work, result in results.items()}}
-    return replace(now, answers=answers, memory=replace(now.memory, latest={**now.memory.latest, **latest}))
+    return replace(
+        now, answers=answers, memory=replace(now.memory, latest={**now.memory.latest, **latest})
+    )
 
 
 def soon(now: PageState) -> PageState:
@@ -84,7 +90,9 @@ STATES: Mapping[str, Any] = {
     "at rest": lambda: soon(now_at(CHANGED)),
     "dragged": lambda: moved(soon(now_at(OPENING)), CHANGED),
     "held": lambda: replace(
-        soon(now_at(CHANGED)), station=HeldStation("tip", LeastPower(3.0, 9e5, held=False)), change=-2e3
+        soon(now_at(CHANGED)),
+        station=HeldStation("tip", LeastPower(3.0, 9e5, held=False)),
+        change=-2e3,
     ),
     "A": lambda: soon(now_at(CHANGED, OPENING)),
     "units": lambda: soon(now_at(CHANGED, units="Aviation")),
@@ -114,7 +122,9 @@ def test_a_panel_shows_the_same_of_what_is_the_same(name: str):
 
 def test_drawers_that_are_closed_are_not_viewed():
     def opened(drawer: str) -> list[Panel]:
-        return [panel for panel in (DETAILS, TRUST, WATERFALL) if panel.seen(OpenPanels(drawer=drawer))]
+        return [
+            panel for panel in (DETAILS, TRUST, WATERFALL) if panel.seen(OpenPanels(drawer=drawer))
+        ]
 
     assert (opened(""), opened("details"), opened("trust")) == ([], [DETAILS, WATERFALL], [TRUST])
 
@@ -125,10 +135,16 @@ class TestWhileADragGoesOn:
         return soon(now_at(replace(OPENING, built_outer=-4.0)))
 
     def test_the_band_of_the_step_before_stays(self, rest: PageState):
-        before, during, after = (pieces(now) for now in (rest, moved(rest, CHANGED), soon(moved(rest, CHANGED))))
+        before, during, after = (
+            pieces(now) for now in (rest, moved(rest, CHANGED), soon(moved(rest, CHANGED)))
+        )
         assert before["within"].text.startswith(" ± ")
         assert during["within"] == replace(before["within"], stale=True)
-        assert (during["sure-band"].stale, during["sure"].stale, during["moved"].stale) == (True, True, False)
+        assert (during["sure-band"].stale, during["sure"].stale, during["moved"].stale) == (
+            True,
+            True,
+            False,
+        )
         assert after["sure-band"].text != before["sure-band"].text
 
     def test_so_do_the_rows_of_the_doubt_greyed(self, rest: PageState):
@@ -142,7 +158,8 @@ class TestWhileADragGoesOn:
         assert {row.stale for row in rows.values()} == {False}
         assert twist_slopes(rest).keys() == rows.keys()
         assert {row.stale for row in worth(during)["worth"].values()} == {True}
-        assert twist_slopes(during) == {}  # The foreseen best twist takes none that are of another design.
+        # The foreseen best twist takes none that are of another design.
+        assert twist_slopes(during) == {}
         after = worth(soon(during))["worth"]
         assert {row.stale for row in after.values()} == {False}
         assert after != rows
@@ -218,7 +235,8 @@ def test_a_free_rotor_has_the_doubt_of_its_drag_and_no_slopes():
 
 def test_the_band_of_the_curve_is_asked_once_for_all_speeds():
     here, faster, heavier = (
-        bands_call(now_at(replace(CHANGED, **changes))) for changes in ({}, {"advance_ratio": 0.25}, {"mass_t": 9.0})
+        bands_call(now_at(replace(CHANGED, **changes)))
+        for changes in ({}, {"advance_ratio": 0.25}, {"mass_t": 9.0})
     )
     assert here == faster is not None
     assert here != heavier
@@ -227,9 +245,14 @@ def test_the_band_of_the_curve_is_asked_once_for_all_speeds():
 
 
 def test_in_the_hand_power_has_the_unit_of_the_page():
-    now = replace(now_at(CHANGED, units="Aviation"), station=HeldStation("tip", LeastPower(3.0, 745699.872, held=True)))
+    now = replace(
+        now_at(CHANGED, units="Aviation"),
+        station=HeldStation("tip", LeastPower(3.0, 745699.872, held=True)),
+    )
     shown = station_power(replace(now, change=-74569.9872))["hand"]
-    assert shown.now == pytest.approx(AVIATION.power[0].of(now.state.solution.power.total), abs=0.01)
+    assert shown.now == pytest.approx(
+        AVIATION.power[0].of(now.state.solution.power.total), abs=0.01
+    )
     assert shown.before == pytest.approx(shown.now + 100.0, abs=0.02)
     assert (shown.best.power, shown.place, shown.optimised) == (1000.0, "tip", None)
     assert station_power(replace(now, station=None)) == {"hand": None}
@@ -244,7 +267,9 @@ def test_in_the_hand_a_change_has_its_band_once_it_rests():
     assert sure.change_band is not None
     assert "±" not in station_power(now)["hand"].change
     assert station_power(soon(now))["hand"].power.endswith(f" ± {1e-3 * sure.band:.0f} kW")
-    size, within, word = re.findall(r"(.+) ± (.+) kW, (.+)", station_power(soon(now))["hand"].change)[0]
+    size, within, word = re.findall(
+        r"(.+) ± (.+) kW, (.+)", station_power(soon(now))["hand"].change
+    )[0]
     assert [float(text.replace("−", "-")) for text in (size, within)] == pytest.approx(
         [1e-3 * change, 1e-3 * sure.change_band], abs=0.51
     )
@@ -272,13 +297,22 @@ def test_no_number_of_the_card_is_blank_in_descent(climb: float, outer: float):
 def test_autorotation_is_marked():
     now = flown(replace(OPENING, advance_ratio=0.15, climb_m_s=-13.0))
     found = line(now)
-    assert re.search(r"descent 13\.0 m/s .* takes [\d.]+ kW from the air; driven by the air\.$", line_text(now))
+    assert re.search(
+        r"descent 13\.0 m/s .* takes [\d.]+ kW from the air; driven by the air\.$", line_text(now)
+    )
     assert found.status.words == "driven by the air"
     assert (
-        "The air drives the rotor, which sinks by about 11 m/s in autorotation and by 13.0 here" in found.status.title
+        "The air drives the rotor, which sinks by about 11 m/s in autorotation and by 13.0 here"
+        in found.status.title
     )
-    assert line(flown(replace(OPENING, advance_ratio=0.15, climb_m_s=-10.8))).status.words == "autorotation"
-    assert line(flown(replace(OPENING, advance_ratio=0.15, climb_m_s=-8.0))).status.words != "autorotation"
+    assert (
+        line(flown(replace(OPENING, advance_ratio=0.15, climb_m_s=-10.8))).status.words
+        == "autorotation"
+    )
+    assert (
+        line(flown(replace(OPENING, advance_ratio=0.15, climb_m_s=-8.0))).status.words
+        != "autorotation"
+    )
 
 
 def test_more_than_the_engines_give_is_said_in_the_line():

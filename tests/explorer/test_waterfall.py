@@ -50,7 +50,9 @@ class TestDrawing:
     def test_what_cannot_matter_says_why(self):
         steps = waterfall(coarse(0.0))
         assert "no drag in hover" in waterfall_chart(steps.steps)
-        assert any("Hover is the same at every azimuth" in cost_words(step, SI) for step in steps.alone)
+        assert any(
+            "Hover is the same at every azimuth" in cost_words(step, SI) for step in steps.alone
+        )
 
     def test_a_step_that_does_not_trim_is_named(self, found: Waterfall):
         steps = (found.steps[0], replace(found.steps[1], budget=None, message="Too <heavy>."))
@@ -62,7 +64,9 @@ class TestDrawing:
 
 def now_at(mu: float) -> PageState:
     solution = solve(coarse(mu))
-    return PageState(Inputs(), solution.design, SessionState(Inputs(), ViewState(), solution, solution, None))
+    return PageState(
+        Inputs(), solution.design, SessionState(Inputs(), ViewState(), solution, solution, None)
+    )
 
 
 def test_it_gives_way_after_each_trim_and_is_shown_whole_or_not_at_all():
@@ -70,10 +74,13 @@ def test_it_gives_way_after_each_trim_and_is_shown_whole_or_not_at_all():
     (work,) = waterfall_work(now)
     assert "Computing" in shown(now)["details.waterfall"]
     coming = work.run(lambda: None)
-    assert [next(coming) for _ in range(2 * len(SWITCHES))] == [None] * 2 * len(SWITCHES)  # It gives way after each.
+    # It gives way after each.
+    assert [next(coming) for _ in range(2 * len(SWITCHES))] == [None] * 2 * len(SWITCHES)
     steps = at_once(coming)
     assert len(steps) == 2 * len(SWITCHES) + 1
-    known = replace(now, answers={work.key: steps}, memory=replace(now.memory, latest={work.name: steps}))
+    known = replace(
+        now, answers={work.key: steps}, memory=replace(now.memory, latest={work.name: steps})
+    )
     drawn = shown(known)
     assert "All switched on" in drawn["details.waterfall"]
     assert "rx-faded" not in drawn["details.waterfall"]
@@ -99,7 +106,10 @@ def in_units(now: PageState) -> PageState:
 def test_in_descent_the_bars_of_what_needs_power_fit_and_the_climb_has_its_colour():
     design = coarse(0.2).at(climb_m_s=-5.0)
     svg = waterfall_chart(waterfall(design).steps)
-    right = [float(x) + float(width) for x, width in re.findall(r'<rect x="([\d.]+)" y="[\d.]+" width="([\d.]+)"', svg)]
+    right = [
+        float(x) + float(width)
+        for x, width in re.findall(r'<rect x="([\d.]+)" y="[\d.]+" width="([\d.]+)"', svg)
+    ]
     assert max(right) <= 258.0
     assert "climb −408 kW" in svg
     assert ">climb</span>" in svg

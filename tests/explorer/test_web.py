@@ -16,7 +16,11 @@ def test_every_function_that_python_calls_is_there():
     called = set(re.findall(r'call\([\w.]+, "(?:RX|rotorScene)\.(\w+)"', WRITTEN))
     assert {"begin", "facts", "keep", "dialog", "move", "turn", "stop"} <= called
     scripts = "".join(map(web.text, web.SCRIPTS))
-    assert {name for name in called if not re.search(rf"^    (?:async )?{name}\(", scripts, re.MULTILINE)} == set()
+    assert {
+        name
+        for name in called
+        if not re.search(rf"^    (?:async )?{name}\(", scripts, re.MULTILINE)
+    } == set()
 
 
 def test_a_file_is_filled_in_one_pass(monkeypatch: pytest.MonkeyPatch):
@@ -30,7 +34,11 @@ def test_no_rule_asks_the_whole_page_what_it_has():
     """Then everything drawn has the whole page styled anew: 8 ms a frame, and half as many frames of a drag."""
     sheets = [path.read_text(encoding="utf-8") for path in Path(web.__file__).parent.glob("*.css")]
     assert len(sheets) > 5
-    assert [rule for sheet in sheets for rule in re.findall(r"(?:html|:root|body)[^\s,{>+~]*:has\([^{]*", sheet)] == []
+    assert [
+        rule
+        for sheet in sheets
+        for rule in re.findall(r"(?:html|:root|body)[^\s,{>+~]*:has\([^{]*", sheet)
+    ] == []
 
 
 def test_data_cannot_end_its_element():

@@ -7,7 +7,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs, VerdictInputs, lean_verdict
+from explorer.model.actuator_inputs import (
+    MOST_SEGMENTS,
+    ActuatorInputs,
+    VerdictInputs,
+    lean_verdict,
+)
 from explorer.model.inputs import Inputs, with_rotor
 from explorer.model.units import SI
 from explorer.parts.presses import SupposePress
@@ -56,17 +61,24 @@ def test_points_are_what_the_verdicts_say(lined: PageState):
     assert point.y[0] == pytest.approx(verdict.installed.masses.aircraft, rel=1e-3)
     assert point.names == ("MFC P1",)
     assert "more" in point.words[0]
-    assert (shown.chart.x.label, shown.chart.y.label) == ("range of tip twist in flight [°]", "mass of all blades [kg]")
+    assert (shown.chart.x.label, shown.chart.y.label) == (
+        "range of tip twist in flight [°]",
+        "mass of all blades [kg]",
+    )
 
 
-@pytest.mark.parametrize("text", ["", "4", "4,12,1", "91,12", "4,0", "4,-1", "1e9,1", "4,20000", "..,1", "nan,1"])
+@pytest.mark.parametrize(
+    "text", ["", "4", "4,12,1", "91,12", "4,0", "4,-1", "1e9,1", "4,20000", "..,1", "nan,1"]
+)
 def test_a_place_that_is_none_is_refused_with_the_remedy(text: str):
     assert read_place("4.2,12") == (4.2, 12.0)
     with pytest.raises(ValueError, match=re.escape(repr(text)) + r".*write 4,12\."):
         read_place(text)
 
 
-def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: PageState, lined: PageState):
+def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(
+    judged: PageState, lined: PageState
+):
     """Read off the line of the one value; gone with a press."""
     shown = PAY.view(lined)
     assert (shown["suppose"], shown["actuator.pays"]) == (None, False)
@@ -79,7 +91,10 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(judged: PageSta
     now = done(now, pressed)
     shown = PAY.view(now)["suppose"]
     # On the line: 3000·½·1.5 W of twist less 4.3·200 W of mass; 11.25 kg cost what the twist saves.
-    assert (shown.words, shown.at) == ("2.0° for 4.3 kg saves 1.4 ± 0.4 kW (likely) over the mission", (2.0, 4.3))
+    assert (shown.words, shown.at) == (
+        "2.0° for 4.3 kg saves 1.4 ± 0.4 kW (likely) over the mission",
+        (2.0, 4.3),
+    )
     assert shown.note == "With this range it pays below 11 ± 1.4 kg; with this mass, above 0.6°."
     assert (shown.kind, PAY.view(now)["actuator.pays"]) == ("gain", True)
     near = PAY.view(done(now, move_supposed(now, SupposePress(2.0, 11.0))))
@@ -100,10 +115,15 @@ def asked_of(task: Call) -> VerdictInputs:
 def test_the_table_of_kinds_has_the_verdict_of_each_as_it_comes(judged: PageState):
     """Same blade and mission; the words of sureness and the limits beside the number; a press takes one."""
     tried = replace(judged.hand.actuator, plies=4, chord=(0.2, 0.8))
-    now = done(replace(judged, hand=replace(judged.hand, actuator=tried)), move_supposed(judged, "on"))
+    now = done(
+        replace(judged, hand=replace(judged.hand, actuator=tried)), move_supposed(judged, "on")
+    )
     tasks = actuated_blade(now).tasks
     assert next(iter(tasks)) == "MFC_P1"
-    assert [asked_of(task).placement.plies for task in tasks.values()] == [4, *[2] * (len(tasks) - 1)]
+    assert [asked_of(task).placement.plies for task in tasks.values()] == [
+        4,
+        *[2] * (len(tasks) - 1),
+    ]
     passive = tasks["extension_twist"].run()
     now = replace(now, answers={tasks["extension_twist"]: passive})
     rows = re.findall(r"<tr[^>]*>(.*?)</tr>", PAY.view(now)["actuator.kinds"])
@@ -128,7 +148,9 @@ def test_a_kind_that_constant_speed_forbids_says_so_first_and_is_never_green():
     pieces = LINE.view(now)["line"].pieces
     assert "with extension twist (forbidden by constant rotor speed) at 100" in line_text(now)
     assert "good" not in {piece.kind for piece in pieces}
-    assert verdict_sentence(verdict).startswith("Forbidden by constant rotor speed; if it could work, it saves")
+    assert verdict_sentence(verdict).startswith(
+        "Forbidden by constant rotor speed; if it could work, it saves"
+    )
     still = worked(LINE, actuate(INPUTS, actuator=ActuatorInputs("extension_twist")))
     assert line_text(still).endswith("kW: no change from the blade without it.")
     card = ACTUATOR_CARD.view(now)["assessed"]

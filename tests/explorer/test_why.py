@@ -36,16 +36,22 @@ class TestWhereTheLiftIs:
     def test_the_centroid_of_known_loadings(self):
         solution = flown(inflow="drees")
         middle = 0.5 * (solution.design.rotor.blade.root_cutout + 1.0)
-        assert lift_centroid(lifting(solution, np.ones(()))) == pytest.approx((middle, 0.0), abs=1e-12)
+        assert lift_centroid(lifting(solution, np.ones(()))) == pytest.approx(
+            (middle, 0.0), abs=1e-12
+        )
         swayed = lift_centroid(lifting(solution, 1.0 + np.sin(solution.disk.psi)))
         assert swayed == pytest.approx((middle, 0.5), abs=1e-12)
-        still = lifting(replace(solution, design=solution.design.with_twist("linear:-3")), np.zeros(()))
+        still = lifting(
+            replace(solution, design=solution.design.with_twist("linear:-3")), np.zeros(())
+        )
         assert lift_centroid(still) is None
         assert why(solution, still).startswith("A new twist: ")
 
 
 def test_another_test_or_flight_is_named():
-    stands: list[dict[str, Any]] = [{"ct_over_sigma": load, "shaft_tilt_deg": 0.0} for load in (0.07, 0.08)]
+    stands: list[dict[str, Any]] = [
+        {"ct_over_sigma": load, "shaft_tilt_deg": 0.0} for load in (0.07, 0.08)
+    ]
     first, second = (solved(make_design(mu=0.2, trim="wind-tunnel", stand=one)) for one in stands)
     assert why(flown(), first).startswith("The rotor alone, on a test stand: ")
     assert why(first, flown()).startswith("Flight instead of a test: ")
@@ -72,13 +78,21 @@ HEAVY, LIGHT = {"mass": 9000.0}, {"mass": 8000.0}
         (UNTWISTED, TWISTED, r"^Lift moved inboard: induced −\d+, tail rotor −"),
         (TWISTED, UNTWISTED, r"^Lift moved outboard: induced \+"),
         # Beyond the optimum twist costs induced power, although the lift moves inboard.
-        ({"mu": 0.0, "twist": "linear:-20"}, {"mu": 0.0, "twist": "linear:-28"}, r"^Lift moved inboard: induced \+"),
+        (
+            {"mu": 0.0, "twist": "linear:-20"},
+            {"mu": 0.0, "twist": "linear:-28"},
+            r"^Lift moved inboard: induced \+",
+        ),
         (
             {"mu": 0.35, "twist": "segments:-17.4,-4@0.5"},
             {"mu": 0.35, "twist": "segments:-17.4,-16.6@0.5"},
             r"^Lift moved inboard and towards the advancing side: induced −.*drag divergence shrank",
         ),
-        (LIGHT, HEAVY, r"^12 % more weight: induced \+.*; stall appeared inboard on the retreating side"),
+        (
+            LIGHT,
+            HEAVY,
+            r"^12 % more weight: induced \+.*; stall appeared inboard on the retreating side",
+        ),
         (HEAVY, LIGHT, r"^11 % less weight: induced −"),
         (SLOW, FAST, r"^Faster \(µ 0\.3\): parasite \+"),
         ({"mu": 0.1}, {"mu": 0.15}, r"^Faster \(µ 0\.15\): induced −"),
@@ -86,14 +100,22 @@ HEAVY, LIGHT = {"mass": 9000.0}, {"mass": 8000.0}
         (SLOW, FAST, "drag divergence appeared near the tip on the advancing side"),
         ({"mu": 0.25}, FAST, "drag divergence grew near the tip on the advancing side"),
         (FAST, {"mu": 0.25}, "drag divergence shrank"),
-        ({"mu": 0.3, "mass": 9.8e3}, {"mu": 0.42, "mass": 9.8e3}, "stall grew .*on the retreating side"),
+        (
+            {"mu": 0.3, "mass": 9.8e3},
+            {"mu": 0.42, "mass": 9.8e3},
+            "stall grew .*on the retreating side",
+        ),
         ({"mu": 0.0}, {"mu": 0.15}, "stall appeared inboard on the retreating side"),
         (SLOW, {"altitude": 2000.0}, r"^Thinner air \(−18 %\): induced \+.*parasite −"),
         ({"altitude": 2000.0}, SLOW, r"^Denser air \(\+22 %\): induced −"),
         (SLOW, {"mu": 0.25, "twist": "linear:-5", "mass": 9000.0}, "^Several changes at once: "),
         (SLOW, {"twist": "linear:-5", "mass": 9000.0}, r"^8\.1 % more weight and a new twist: "),
         (SLOW, SLOW, r"^Nothing has changed\.$"),
-        ({"twist": "linear:-8"}, {"twist": "linear:-8.001"}, r"^Lift hardly moved: no change in power\.$"),
+        (
+            {"twist": "linear:-8"},
+            {"twist": "linear:-8.001"},
+            r"^Lift hardly moved: no change in power\.$",
+        ),
         ({"mu": 0.45, "mass": 14_000.0}, SLOW, "no trim"),
     ],
 )
@@ -119,7 +141,11 @@ def test_a_switch_says_what_it_does_or_why_nothing(flight: dict[str, Any], switc
 def test_another_model_or_rotor_is_named():
     cases: tuple[tuple[dict[str, Any], dict[str, Any], str], ...] = (
         (SLOW, {"inflow": "uniform"}, "Uniform instead of Lifting line: "),
-        ({"mu": 0.0}, {"hover_inflow": "closed-form"}, "Closed form instead of annulus balance in hover: "),
+        (
+            {"mu": 0.0},
+            {"hover_inflow": "closed-form"},
+            "Closed form instead of annulus balance in hover: ",
+        ),
         ({"mu": 0.05}, {"low_speed": "wake"}, "Without transition to hover at low speed: "),
         ({"mu": 0.0}, {"elements": 20}, "Another model: "),
         (FAST, {"bending": True}, "With blade bending: "),
@@ -145,7 +171,9 @@ class TestNumbers:
     @pytest.mark.parametrize("mu", [0.1, 0.3])
     def test_parts_come_in_order_of_size_and_are_those_of_the_solutions(self, mu: float):
         before, after = flown(mu), flown(mu, "linear:-4", 9500.0)
-        named = re.findall(r"(induced|profile|parasite|tail rotor) ([+−][\d\u2009.]+)", why(before, after))
+        named = re.findall(
+            r"(induced|profile|parasite|tail rotor) ([+−][\d\u2009.]+)", why(before, after)
+        )
         sizes = [float(value.replace("−", "-").replace("\u2009", "")) for _, value in named]
         assert sizes == sorted(sizes, key=abs, reverse=True)
         for (name, _), size in zip(named, sizes, strict=True):

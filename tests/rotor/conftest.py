@@ -64,7 +64,9 @@ def answer(printed: Callable[..., str]) -> Callable[..., Any]:
     def strange(name: str) -> None:
         pytest.fail(f"{name} in JSON")
 
-    return lambda *words, code=0: json.loads(printed(*words, "--json", code=code), parse_constant=strange)
+    return lambda *words, code=0: json.loads(
+        printed(*words, "--json", code=code), parse_constant=strange
+    )
 
 
 @pytest.fixture

@@ -24,8 +24,12 @@ def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
     assert b is not None
     rotor = problem.design.rotor
     u, v, w = displacements(b, *coordinates_of(b, point.system.structure, point.z), forces.shape[2])
-    (u_rate, u_second), (v_rate, v_second), (_, w_second) = (_rates(deflection) for deflection in (u, v, w))
-    acceleration = np.stack([u_second - (b.r[:, None] + u) - 2.0 * v_rate, v_second - v + 2.0 * u_rate, w_second])
+    (u_rate, u_second), (v_rate, v_second), (_, w_second) = (
+        _rates(deflection) for deflection in (u, v, w)
+    )
+    acceleration = np.stack(
+        [u_second - (b.r[:, None] + u) - 2.0 * v_rate, v_second - v + 2.0 * u_rate, w_second]
+    )
     acceleration[2] += GRAVITY / (rotor.radius * rotor.angular_speed**2)
     air = np.stack([forces[FR], -forces[FX], forces[FZ]])
     force = np.einsum("i,kij->kj", disk.dr, air) - np.einsum("i,kij->kj", b.strips, acceleration)
@@ -34,13 +38,21 @@ def root_loads(problem: Problem, point: Point) -> tuple[Array, Array]:
         """Moment of the forces along one axis times their distance from the root, less those outward times theirs."""
         moved = moved - moved[0]
         columns: list[Array] = [np.interp(disk.r, b.r, column) for column in moved.T]
-        of_air = (disk.r - b.r[0]) * disk.dr @ air[along] - disk.dr @ (np.stack(columns, axis=1) * air[0])
-        return of_air - (b.r - b.r[0]) * b.strips @ acceleration[along] + b.strips @ (moved * acceleration[0])
+        of_air = (disk.r - b.r[0]) * disk.dr @ air[along] - disk.dr @ (
+            np.stack(columns, axis=1) * air[0]
+        )
+        return (
+            of_air
+            - (b.r - b.r[0]) * b.strips @ acceleration[along]
+            + b.strips @ (moved * acceleration[0])
+        )
 
     return force * b.force, np.stack([moment(2, w), moment(1, v)]) * (b.force * rotor.radius)
 
 
-def displacements(b: BladeBending, q: Array, offset: float, azimuths: int) -> tuple[Array, Array, Array]:
+def displacements(
+    b: BladeBending, q: Array, offset: float, azimuths: int
+) -> tuple[Array, Array, Array]:
     """u outward, v forward with the offset y0, and w up over R at the stations of a blade: (stations, azimuths)."""
     q = q.copy()
     q[b.first, 0] -= b.precone

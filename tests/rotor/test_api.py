@@ -56,7 +56,9 @@ def test_the_page_of_a_design_is_served_until_it_is_stopped():
     try:
         answer = urllib.request.urlopen(page.address, timeout=60)
         assert answer.status == 200
-        assert "frame-ancestors 'self' http://localhost:*" in answer.headers["Content-Security-Policy"]
+        assert (
+            "frame-ancestors 'self' http://localhost:*" in answer.headers["Content-Security-Policy"]
+        )
         assert page.address in page._repr_html_()
     finally:
         page.stop()
@@ -64,20 +66,35 @@ def test_the_page_of_a_design_is_served_until_it_is_stopped():
         urllib.request.urlopen(page.address, timeout=60)
 
 
-EXPLAINED = ("make_design", "solve", "solve_many", "sweep", "optimise", "schedule", "run_study", "doubt")
+EXPLAINED = (
+    "make_design",
+    "solve",
+    "solve_many",
+    "sweep",
+    "optimise",
+    "schedule",
+    "run_study",
+    "doubt",
+)
 
 
 @pytest.mark.parametrize("name", EXPLAINED)
-def test_the_example_of_a_docstring_runs(name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_the_example_of_a_docstring_runs(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
     monkeypatch.chdir(tmp_path)
     names = {"rotor": rotor, "pathlib": pathlib}
-    (example,) = doctest.DocTestFinder(recurse=False).find(inspect.unwrap(getattr(rotor, name)), name, globs=names)
+    (example,) = doctest.DocTestFinder(recurse=False).find(
+        inspect.unwrap(getattr(rotor, name)), name, globs=names
+    )
     assert example.examples
     results = doctest.DocTestRunner().run(example)
     assert results.failed == 0
 
 
-def test_a_schedule_is_that_of_each_speed_and_never_worse_than_the_fixed_blade(design: rotor.Design):
+def test_a_schedule_is_that_of_each_speed_and_never_worse_than_the_fixed_blade(
+    design: rotor.Design,
+):
     made = rotor.make_design(case=design, inflow="uniform")
     found = rotor.schedule(made, mu=[0.3, 0.1], hours=[2.0, 1.0])
     gain = found.in_flight_gain("linear")
@@ -97,10 +114,18 @@ def test_an_optimum_over_weighted_speeds_within_limits(design: rotor.Design):
     made = rotor.make_design(case=design, inflow="pitt-peters")
     weights = {0.1: 1.0, 0.3: 3.0}
     limits = rotor.Limits(rate_deg=(-9, 0), stalled_percent=50)
-    found = rotor.optimise(made, "linear", conditions=list(weights.items()), limits=limits, starts=2)
+    found = rotor.optimise(
+        made, "linear", conditions=list(weights.items()), limits=limits, starts=2
+    )
 
     def mean(twist: str) -> float:
-        return sum(w * rotor.solve(made.at(mu=mu).with_twist(twist)).power.total for mu, w in weights.items()) / 4.0
+        return (
+            sum(
+                w * rotor.solve(made.at(mu=mu).with_twist(twist)).power.total
+                for mu, w in weights.items()
+            )
+            / 4.0
+        )
 
     assert_allclose(found.best.power, mean(found.best.twist), rtol=1e-7)
     assert found.best.power <= min(mean(f"linear:{rate}") for rate in (-9, -6, -3)) * (1 + 1e-9)
@@ -115,7 +140,10 @@ def test_an_optimum_over_weighted_speeds_within_limits(design: rotor.Design):
 @pytest.mark.parametrize("inflow", ["pitt-peters", "lifting-line"])
 def test_power_settles_on_finer_grids(inflow: str, tmp_path: Path):
     """Twice the elements halve the distance to the finest at least; the grid is kept in a design file."""
-    powers = {n: rotor.solve(rotor.make_design(mu=0.3, inflow=inflow, elements=n)).power.total for n in (12, 24, 96)}
+    powers = {
+        n: rotor.solve(rotor.make_design(mu=0.3, inflow=inflow, elements=n)).power.total
+        for n in (12, 24, 96)
+    }
     assert abs(powers[24] - powers[96]) < 0.6 * abs(powers[12] - powers[96])
     fine = rotor.make_design(mu=0.3, inflow=inflow, elements=32, azimuths=36)
     assert rotor.solve(fine).disk.alpha.shape == (32, 36)
@@ -123,7 +151,9 @@ def test_power_settles_on_finer_grids(inflow: str, tmp_path: Path):
     assert rotor.load_design(tmp_path / "fine.json") == fine
     with pytest.raises(ValueError, match="3 blade elements are outside"):
         rotor.make_design(elements=3)
-    assert rotor.make_design(inflow="pitt-peters", elements=200, azimuths=200).models.elements == 200
+    assert (
+        rotor.make_design(inflow="pitt-peters", elements=200, azimuths=200).models.elements == 200
+    )
     with pytest.raises(ValueError, match="at most 128 and 480, and 3000 points in all; 24 × 24 is"):
         rotor.make_design(elements=200, azimuths=200)
 
@@ -131,7 +161,10 @@ def test_power_settles_on_finer_grids(inflow: str, tmp_path: Path):
 class TestDesign:
     def test_speed_in_knots_and_arguments_left_out(self, design: rotor.Design):
         assert_allclose(design.at(speed_kt=100.0).airspeed, 100.0 * KNOT, rtol=1e-14)
-        assert rotor.make_design(speed_kt=100.0).condition == rotor.make_design().at(speed_kt=100.0).condition
+        assert (
+            rotor.make_design(speed_kt=100.0).condition
+            == rotor.make_design().at(speed_kt=100.0).condition
+        )
         changed = design.at(mass_kg=9000)
         assert (changed.condition.mass, changed.condition.advance_ratio) == (9000.0, 0.2)
         assert design.at(hover=True).hovering
@@ -152,7 +185,9 @@ class TestSolution:
         assert failed.last_power.total > 0.0
         assert rotor.solution_record(failed)["power_w"]["total"] is None
 
-    def test_saved_design_loads_and_keeps_its_numbers(self, solution: rotor.Solution, tmp_path: Path):
+    def test_saved_design_loads_and_keeps_its_numbers(
+        self, solution: rotor.Solution, tmp_path: Path
+    ):
         path = tmp_path / "a.json"
         rotor.save_solution(solution, path)
         assert rotor.load_design(path) == solution.design
@@ -177,7 +212,9 @@ class TestSolution:
 class TestSweep:
     def test_the_table_and_what_other_libraries_read(self, tmp_path: Path):
         """Numbers are numbers with the unit in the name, and a power that does not exist is null or an empty cell."""
-        table = rotor.sweep(rotor.make_design(mass_kg=11_000, **QUICK), mu=(mu for mu in (0.2, 0.5)))
+        table = rotor.sweep(
+            rotor.make_design(mass_kg=11_000, **QUICK), mu=(mu for mu in (0.2, 0.5))
+        )
         assert len(table) == len(list(table)) == 2
         row: dict[str, Any] = dict(zip(table.columns, table.rows[0], strict=True))
         assert row["mu"] == 0.2
@@ -185,7 +222,11 @@ class TestSweep:
         assert row["power_total_w"] == table[0].power.total
         read = pyarrow.table(table.to_dict())
         assert tuple(read.column_names) == table.columns
-        assert str(read.schema.field("power_total_w").type) == str(read.schema.field("mu").type) == "double"
+        assert (
+            str(read.schema.field("power_total_w").type)
+            == str(read.schema.field("mu").type)
+            == "double"
+        )
         assert read.column("power_total_w").to_pylist() == [row["power_total_w"], None]
         table.to_csv(tmp_path / "p.csv")
         with (tmp_path / "p.csv").open(encoding="utf-8", newline="") as file:
@@ -204,7 +245,11 @@ class TestSweep:
 
     def test_over_speed_mass_and_altitude(self, design: rotor.Design):
         """Each is the same trim as that of `Design.at`, and the chart is drawn over what varies."""
-        axes: dict[str, Any] = {"speed_kt": [60, 90], "mass_kg": [7000, 9000], "altitude_m": [0, 2000]}
+        axes: dict[str, Any] = {
+            "speed_kt": [60, 90],
+            "mass_kg": [7000, 9000],
+            "altitude_m": [0, 2000],
+        }
         for name, values in axes.items():
             table = rotor.sweep(design, **{name: values})
             assert [row[table.columns.index(name)] for row in table.rows] == pytest.approx(values)
@@ -219,7 +264,9 @@ class TestSweep:
         table = rotor.sweep([design, design.with_twist("linear:-4")], isa_offset_c=[-10, 20])
         changed = table.relative_to("linear:-4")
         powers = [one.power.total for one in table]
-        by_hand = [100.0 * (power / powers[k] - 1.0) for power, k in zip(powers, (2, 3, 2, 3), strict=True)]
+        by_hand = [
+            100.0 * (power / powers[k] - 1.0) for power, k in zip(powers, (2, 3, 2, 3), strict=True)
+        ]
         assert changed.changes == pytest.approx(by_hand)
         assert changed.to_dict()["change_percent"] == list(changed.changes)
         assert by_hand[0] != 0.0 == by_hand[2]
@@ -228,7 +275,8 @@ class TestSweep:
         assert_allclose(drawn.lines[0].get_ydata(), by_hand[:2])
         pyplot.close("all")
         with pytest.raises(
-            ValueError, match="'linear:-5' is none of the designs of this sweep: use UH-60A, linear:-12; "
+            ValueError,
+            match="'linear:-5' is none of the designs of this sweep: use UH-60A, linear:-12; ",
         ):
             table.relative_to("linear:-5")
 
@@ -251,7 +299,9 @@ class TestSweep:
 
 def test_a_notebook_shows_tables(design: rotor.Design):
     """Every number of the text is in the markup, and no text is taken for markup."""
-    solution, band = (rotor.solve(rotor.make_design(mu=0.2, twist=f"linear:{rate}")) for rate in (-8, -12))
+    solution, band = (
+        rotor.solve(rotor.make_design(mu=0.2, twist=f"linear:{rate}")) for rate in (-8, -12)
+    )
     shown = solution._repr_html_()
     assert f">{solution.power.total / 1e3:.1f}<" in shown
     assert f">{solution.power.tail / 1e3:.1f}<" in shown
@@ -322,7 +372,9 @@ def test_import_does_not_change_blas_threads_and_solve_restores_them():
 
     Nor does it load the page's server.
     """
-    done = subprocess.run([sys.executable, "-c", IMPORT], cwd=ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", IMPORT], cwd=ROOT, capture_output=True, text=True, check=True
+    )
     assert json.loads(done.stdout) == [[], True, []]
 
 
@@ -350,7 +402,10 @@ def test_a_picture_without_matplotlib_is_one_sentence(
         monkeypatch.delitem(sys.modules, name, raising=False)
     with pytest.raises(ImportError, match=re.escape(WANTS)):
         rotor.plot_field(solution)
-    for words in (["validate", "xv15-hover", "--plot", str(tmp_path)], ["reproduce", str(tmp_path / "out")]):
+    for words in (
+        ["validate", "xv15-hover", "--plot", str(tmp_path)],
+        ["reproduce", str(tmp_path / "out")],
+    ):
         assert main(words) == 2
         assert capsys.readouterr().err.endswith(f"{WANTS}\n")
     assert not (tmp_path / "out").exists()

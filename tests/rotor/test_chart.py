@@ -39,7 +39,8 @@ def parts(chart: Chart) -> tuple[list[tuple[float, float]], dict[str, tuple[floa
     tree = ElementTree.fromstring(svg(chart))
     dots = [(float(one.attrib["cx"]), float(one.attrib["cy"])) for one in tree.iter(f"{SVG}circle")]
     words = {
-        "".join(one.itertext()): (float(one.attrib["x"]), float(one.attrib["y"])) for one in tree.iter(f"{SVG}text")
+        "".join(one.itertext()): (float(one.attrib["x"]), float(one.attrib["y"]))
+        for one in tree.iter(f"{SVG}text")
     }
     return dots, words
 
@@ -63,7 +64,9 @@ def test_points_over_azimuth_stand_at_the_ticks():
 def test_decades_are_as_long_as_each_other():
     x = (1e-16, 1e-12, 1e-8, 1e-4)
     series = Points("", x, (0.0, 1.0, 2.0, 3.0))
-    dots, words = parts(Chart("", Axis("error", log=True), Axis(names=("a", "b", "c", "d")), (series,)))
+    dots, words = parts(
+        Chart("", Axis("error", log=True), Axis(names=("a", "b", "c", "d")), (series,))
+    )
     steps = [b[0] - a[0] for a, b in pairwise(dots)]
     assert_allclose(steps, steps[0], atol=0.2)
     assert_allclose([words[name][1] - 4.0 for name in "abcd"], [y for _, y in dots], atol=0.1)
@@ -75,7 +78,8 @@ def test_an_error_bar_is_as_long_as_the_scatter():
     dots, _ = parts(Chart("", Axis("x"), Axis("y"), (series,)))
     scale = (dots[0][1] - dots[1][1]) / 10.0
     (bars,) = re.findall(
-        r'<path d="((?:M[\d.]+,[\d.]+V[\d.]+){2})" stroke', svg(Chart("", Axis("x"), Axis("y"), (series,)))
+        r'<path d="((?:M[\d.]+,[\d.]+V[\d.]+){2})" stroke',
+        svg(Chart("", Axis("x"), Axis("y"), (series,))),
     )
     for start, end in re.findall(r",([\d.]+)V([\d.]+)", bars):
         assert_allclose(float(start) - float(end), 4.0 * scale, atol=0.2)
@@ -83,7 +87,10 @@ def test_an_error_bar_is_as_long_as_the_scatter():
 
 def test_a_line_is_cut_off_at_given_ends_of_the_axes():
     line = Line("<one>", (0.0, 0.5, 1.0), (0.0, 1e9, 1.0), "#123456")
-    drawn = svg(Chart("A <title>", Axis("x", range=(0.0, 1.0)), Axis("y", range=(0.0, 4.0)), (line,)), inline=True)
+    drawn = svg(
+        Chart("A <title>", Axis("x", range=(0.0, 1.0)), Axis("y", range=(0.0, 4.0)), (line,)),
+        inline=True,
+    )
     tree = ElementTree.fromstring(drawn)
     (window,) = tree.findall("svg")
     (path,) = [one for one in window.iter("path") if one.get("stroke") == "#123456"]
@@ -105,12 +112,16 @@ def test_every_shape_says_its_fill_and_stroke():
     )
     tree = ElementTree.fromstring(svg(Chart("", Axis("x"), Axis("y"), series, (Rule(0.5),))))
     for path in tree.iter(f"{SVG}path"):
-        assert path.get("fill") or all(len(re.findall("[VLHlvh]", piece)) < 2 for piece in path.attrib["d"].split("M"))
+        assert path.get("fill") or all(
+            len(re.findall("[VLHlvh]", piece)) < 2 for piece in path.attrib["d"].split("M")
+        )
         assert path.get("stroke") or path.get("fill") != "none"
 
 
 def test_a_chart_of_nothing_known_is_empty_axes():
-    assert "nan" not in svg(Chart("t", Axis("x"), Axis("y"), (Line("a", (0.0, 1.0), (math.nan, math.nan)),)))
+    assert "nan" not in svg(
+        Chart("t", Axis("x"), Axis("y"), (Line("a", (0.0, 1.0), (math.nan, math.nan)),))
+    )
 
 
 def test_ticks_are_round_inside_and_have_a_true_minus():
@@ -122,7 +133,12 @@ def test_ticks_are_round_inside_and_have_a_true_minus():
 def test_the_page_is_told_the_same_ticks_ends_and_colours():
     """Both renderers have them from the value: a gap is None, and a number no longer than a pixel needs."""
     line = Line("one", (0.0, 1.0, 2.0), (0.0, math.nan, 1.0 / 3.0), dashes=True)
-    chart = Chart("title", Axis("x"), Axis("y", range=(0.0, 1.0), unit="°"), (line, Points("two", (1.0,), (0.5,))))
+    chart = Chart(
+        "title",
+        Axis("x"),
+        Axis("y", range=(0.0, 1.0), unit="°"),
+        (line, Points("two", (1.0,), (0.5,))),
+    )
     told, drawn = drawn_chart(chart), svg(chart)
     assert [one.y for one in told.series if isinstance(one, DrawnLine)] == [[0.0, None, 0.3333]]
     assert all(one.colour in drawn for one in told.series)
@@ -177,7 +193,9 @@ def test_json_stays_readable_in_an_attribute():
 
 
 def test_numbers_flags_and_nothing():
-    drawn = tag("input", value=0.1 + 0.2, max=100.0, disabled=True, hidden=False, title=None, for_="a")
+    drawn = tag(
+        "input", value=0.1 + 0.2, max=100.0, disabled=True, hidden=False, title=None, for_="a"
+    )
     assert drawn == '<input value="0.3" max="100" disabled for="a"/>'
     assert tag("ul", [tag("li", one) for one in "ab"], None) == "<ul><li>a</li><li>b</li></ul>"
     assert tag("path", d="M0,0") == '<path d="M0,0"/>'

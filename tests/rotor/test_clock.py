@@ -10,15 +10,23 @@ import pytest
 from rotor.support.progress import ProgressBar
 
 ROOT = Path(__file__).parent.parent.parent
-WALL = re.compile(r"\btime\.time(?:_ns)?\(|\bdatetime\.(?:now|utcnow|today)\(|\bDate\.now\(|new Date\(")
-STAMPS = {"rotor/study/chunks.py": 1, "explorer/export/contents.py": 1, "explorer/export/live.py": 1}
+WALL = re.compile(
+    r"\btime\.time(?:_ns)?\(|\bdatetime\.(?:now|utcnow|today)\(|\bDate\.now\(|new Date\("
+)
+STAMPS = {
+    "rotor/study/chunks.py": 1,
+    "explorer/export/contents.py": 1,
+    "explorer/export/live.py": 1,
+}
 """Files that write down a date."""
 
 
 def test_no_interval_is_taken_from_the_wall_clock():
     found = dict[str, int]()
     for path in sorted([*(ROOT / "rotor").rglob("*"), *(ROOT / "explorer").rglob("*")]):
-        if path.suffix in (".py", ".js", ".html") and (many := len(WALL.findall(path.read_text(encoding="utf-8")))):
+        if path.suffix in (".py", ".js", ".html") and (
+            many := len(WALL.findall(path.read_text(encoding="utf-8")))
+        ):
             found[path.relative_to(ROOT).as_posix()] = many
     assert found == STAMPS
 

@@ -18,7 +18,13 @@ from rotor.__main__ import main
 from rotor.command.warm import compile_lags
 from rotor.engine.linearise import jacobian
 from rotor.support import compiled
-from rotor.support.compiled import _watch, compiled_in_parallel, compiling, log_compiling, why_not_kept
+from rotor.support.compiled import (
+    _watch,
+    compiled_in_parallel,
+    compiling,
+    log_compiling,
+    why_not_kept,
+)
 from rotor.trim.analysis import power_gradient
 from rotor.trim.solve import analyse, solve
 
@@ -68,7 +74,9 @@ def two(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> tuple[Path, Path]:
     monkeypatch.delitem(sys.modules, "called_by_a_test", raising=False)
     monkeypatch.setattr(sys, "dont_write_bytecode", True)  # Python finds that by times and sizes.
     inner, outer = tmp_path / "called_by_a_test.py", tmp_path / "kernels.py"
-    inner.write_text("from rotor.support.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n")
+    inner.write_text(
+        "from rotor.support.compiled import compiled\n\n@compiled()\ndef by(x):\n    return x + 1.0\n"
+    )
     outer.write_text(
         "import called_by_a_test\nfrom rotor.support.compiled import compiled\n\n"
         "@compiled()\ndef kernel(x):\n    return 10.0 * called_by_a_test.by(x)\n"
@@ -114,7 +122,10 @@ def test_a_file_with_a_flipped_bit_is_written_again(source: Path, ending: str):
     (kept,) = source.parent.rglob(f"*kernel*.{ending}")
     whole = kept.read_bytes()
     # The first bytes of the index are numba's version, which numba reads before its own content.
-    for place in (*range(min(30, len(whole) - 1)), *range(len(whole) - 1, 30, -max(1, len(whole) // 12))):
+    for place in (
+        *range(min(30, len(whole) - 1)),
+        *range(len(whole) - 1, 30, -max(1, len(whole) // 12)),
+    ):
         kept.write_bytes(whole[:place] + bytes([whole[place] ^ 16]) + whole[place + 1 :])
         damaged = module(source).kernel
         assert damaged(1.0) == 2.0
@@ -124,7 +135,9 @@ def test_a_file_with_a_flipped_bit_is_written_again(source: Path, ending: str):
         (kept,) = source.parent.rglob(f"*kernel*.{ending}")
 
 
-def test_without_a_folder_to_write_to_nothing_is_kept(source: Path, monkeypatch: pytest.MonkeyPatch):
+def test_without_a_folder_to_write_to_nothing_is_kept(
+    source: Path, monkeypatch: pytest.MonkeyPatch
+):
     monkeypatch.setattr(caching.CompileResultCacheImpl, "_locator_classes", [])
     kernel = module(source).kernel
     assert (kernel(1.0), hits(kernel)) == (2.0, 0)
@@ -199,7 +212,11 @@ def test_every_kernel_is_compiled_here():
     """A kernel with numba's own cache ends the program at import where no folder can be written."""
     home = Path(rotor.__file__).parent
     compiles = re.compile(r"\b(njit|jit|vectorize|guvectorize|stencil)\(")
-    users = [path.name for path in home.rglob("*.py") if compiles.search(path.read_text(encoding="utf-8"))]
+    users = [
+        path.name
+        for path in home.rglob("*.py")
+        if compiles.search(path.read_text(encoding="utf-8"))
+    ]
     assert users == ["compiled.py"]
 
 
@@ -211,7 +228,9 @@ def test_kept_code_is_found_by_all_that_is_compiled_into_it():
         assert not any(isinstance(one, CodeType) for one in code.co_consts), function
         for value in filter(None, (function.__globals__.get(name) for name in code.co_names)):
             known = int, float, tuple, ModuleType
-            assert isinstance(value, known) or hasattr(value, "py_func") or hasattr(value, "_defn"), (function, value)
+            assert (
+                isinstance(value, known) or hasattr(value, "py_func") or hasattr(value, "_defn")
+            ), (function, value)
 
 
 class Terminal(io.StringIO):
@@ -219,7 +238,9 @@ class Terminal(io.StringIO):
         return True
 
 
-def test_a_terminal_counts_what_is_compiled_and_is_left_empty(source: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_terminal_counts_what_is_compiled_and_is_left_empty(
+    source: Path, monkeypatch: pytest.MonkeyPatch
+):
     said = Terminal()
     monkeypatch.setattr(sys, "stderr", said)
     assert module(source).kernel(1.0) == 2.0
@@ -233,7 +254,9 @@ def test_a_terminal_counts_what_is_compiled_and_is_left_empty(source: Path, monk
     assert said.getvalue() == ""  # Kept code.
 
 
-def test_a_line_does_not_say_once_where_nothing_can_be_kept(source: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_line_does_not_say_once_where_nothing_can_be_kept(
+    source: Path, monkeypatch: pytest.MonkeyPatch
+):
     said = io.StringIO()
     monkeypatch.setattr(sys, "stderr", said)
     monkeypatch.setattr(caching.CompileResultCacheImpl, "_locator_classes", [])
@@ -281,7 +304,9 @@ class TestBeside:
             assert made.kernel(1.0) == 2.0
         assert hits(made.kernel) == 0
 
-    def test_there_is_none_where_the_kernels_are_kept(self, made: Any, monkeypatch: pytest.MonkeyPatch):
+    def test_there_is_none_where_the_kernels_are_kept(
+        self, made: Any, monkeypatch: pytest.MonkeyPatch
+    ):
         made.kernel(1.0)
         monkeypatch.setattr(compiled.subprocess, "Popen", None)
         with compiled_in_parallel(made.compile_it, made.__name__):

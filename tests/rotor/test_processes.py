@@ -57,7 +57,9 @@ def die() -> None:
 def settings() -> tuple[int, set[int]]:
     """This process, and the threads of its BLAS libraries."""
     np.linalg.solve(np.eye(2), np.eye(2))
-    return os.getpid(), {library.get_num_threads() for libraries in _libraries() for library in libraries}
+    return os.getpid(), {
+        library.get_num_threads() for libraries in _libraries() for library in libraries
+    }
 
 
 def count(first: int, last: int, pause: float, stop: Callable[[], bool] | None) -> Iterator[int]:
@@ -130,7 +132,9 @@ class Heard(list[JobEvent]):
         return [event.item for event in self if isinstance(event, JobProgress)]
 
 
-def begin(pool: Processes, task: Any, limit: float = PATIENCE, urgency: int = 0) -> tuple[Job, Heard]:
+def begin(
+    pool: Processes, task: Any, limit: float = PATIENCE, urgency: int = 0
+) -> tuple[Job, Heard]:
     heard = Heard()
     return pool.begin(task, heard.append, limit, urgency), heard
 
@@ -152,7 +156,9 @@ def test_calls_return_raise_and_are_made_by_other_processes_with_one_blas_thread
         pool.submit(pow, 2, 3)
 
 
-def test_a_process_that_starts_leaves_the_environment_to_other_threads(monkeypatch: pytest.MonkeyPatch):
+def test_a_process_that_starts_leaves_the_environment_to_other_threads(
+    monkeypatch: pytest.MonkeyPatch,
+):
     """One that read it meanwhile ended with `KeyError: 'OMP_NUM_THREADS'`."""
     monkeypatch.delenv("OMP_NUM_THREADS", raising=False)
     before = dict(os.environ)
@@ -299,7 +305,10 @@ def test_time_is_limited(pool: Processes):
 def test_a_task_that_fails_says_so_and_the_process_goes_on(pool: Processes):
     begin(pool, Count(1))[1].until(JobEnded)
     before = pids_of(pool)
-    for error, words in (ValueError("a bad value"), "a bad value"), (MemoryError(), "needs more memory than is free"):
+    for error, words in (
+        (ValueError("a bad value"), "a bad value"),
+        (MemoryError(), "needs more memory than is free"),
+    ):
         _, heard = begin(pool, Failing(error))
         assert words in heard.until(JobFailed).message
     _, heard = begin(pool, Count(5))

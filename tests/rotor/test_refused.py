@@ -17,7 +17,12 @@ from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import read_aircraft
 from rotor.optimisation.concepts import CONCEPTS, find_concept, restrict
 from rotor.optimisation.limits import ChangeLimit, Limits
-from rotor.optimisation.objective import Objective, WeightedCondition, hover_and_cruise, read_mission
+from rotor.optimisation.objective import (
+    Objective,
+    WeightedCondition,
+    hover_and_cruise,
+    read_mission,
+)
 from rotor.optimisation.search import Search
 from rotor.study.study_file import parse_study
 from rotor.support.assets import asset_path
@@ -25,18 +30,39 @@ from rotor.support.assets import asset_path
 WRONG = {
     "rotor.make_design(twist=-12)": (TypeError, 'twist -12 is not a twist: write "linear:-12"'),
     "rotor.make_design(twist='-12')": (ValueError, "twist '-12' is not known: write linear:-12"),
-    "rotor.make_design(twist=lambda r: 0 * r)": (TypeError, 'is not a twist: write a text such as "linear:-12"'),
-    "rotor.make_design(mu='fast')": (TypeError, "mu is 'fast', not a number: write for example mu=0.3"),
+    "rotor.make_design(twist=lambda r: 0 * r)": (
+        TypeError,
+        'is not a twist: write a text such as "linear:-12"',
+    ),
+    "rotor.make_design(mu='fast')": (
+        TypeError,
+        "mu is 'fast', not a number: write for example mu=0.3",
+    ),
     "rotor.make_design(mu=2)": (ValueError, "advance ratio 2 is outside 0…0.6"),
-    "rotor.make_design(mu=0.2, hover=True)": (ValueError, "mu=0.2 and hover=True each set the speed"),
+    "rotor.make_design(mu=0.2, hover=True)": (
+        ValueError,
+        "mu=0.2 and hover=True each set the speed",
+    ),
     "rotor.make_design(hover='yes')": (TypeError, "hover is 'yes': write hover=True"),
     "rotor.make_design(mass_kg='8 t')": (TypeError, "mass_kg is '8 t', not a number"),
     "rotor.make_design(climb_m_s='fast')": (TypeError, "climb_m_s is 'fast', not a number"),
     "rotor.make_design(preset='thesis', climb_m_s=3)": (ValueError, "document's equations"),
-    "rotor.make_design(mass_kg=9.5)": (ValueError, "mass 9.5 kg is outside 100…50000 kg: 9.5 t is 9500 kg"),
-    "rotor.make_design(mass_kg=90000)": (ValueError, "mass 90000 kg is outside 100…50000 kg: choose a value inside"),
-    "rotor.make_design(rotor='UH-60A')": (ValueError, "rotor 'UH-60A' is not known; did you mean 'uh60a'?"),
-    "rotor.make_design(twist='liner:-8')": (ValueError, "twist 'liner:-8' is not known; did you mean 'linear'?"),
+    "rotor.make_design(mass_kg=9.5)": (
+        ValueError,
+        "mass 9.5 kg is outside 100…50000 kg: 9.5 t is 9500 kg",
+    ),
+    "rotor.make_design(mass_kg=90000)": (
+        ValueError,
+        "mass 90000 kg is outside 100…50000 kg: choose a value inside",
+    ),
+    "rotor.make_design(rotor='UH-60A')": (
+        ValueError,
+        "rotor 'UH-60A' is not known; did you mean 'uh60a'?",
+    ),
+    "rotor.make_design(twist='liner:-8')": (
+        ValueError,
+        "twist 'liner:-8' is not known; did you mean 'linear'?",
+    ),
     "rotor.make_design(twist='UH-60A')": (ValueError, "did you mean 'uh60a'?"),
     "rotor.make_design(elements='many')": (TypeError, "elements is 'many', not a whole number"),
     "rotor.make_design(azimuths=24.5)": (TypeError, "azimuths is 24.5, not a whole number"),
@@ -44,45 +70,90 @@ WRONG = {
     "rotor.make_design(inflow=3)": (TypeError, "inflow is 3, not a text"),
     "rotor.make_design(airfoils=3)": (TypeError, "airfoils is 3, not a text"),
     "rotor.make_design(off=['swirl'])": (TypeError, "off is ['swirl'], not a text"),
-    "rotor.make_design(case='x.json')": (TypeError, "case is 'x.json', not a design: give what rotor.load_design"),
+    "rotor.make_design(case='x.json')": (
+        TypeError,
+        "case is 'x.json', not a design: give what rotor.load_design",
+    ),
     "rotor.make_design(models='best')": (TypeError, "models is 'best', not rotor.Models"),
     "rotor.make_design(stand='wind')": (TypeError, "stand is 'wind', not a dictionary"),
     "rotor.make_design(masskg=8)": (TypeError, "no argument 'masskg'; did you mean 'mass_kg'?"),
-    "rotor.make_design(delta_isa=20)": (TypeError, "no argument 'delta_isa': write isa_offset_c=20"),
+    "rotor.make_design(delta_isa=20)": (
+        TypeError,
+        "no argument 'delta_isa': write isa_offset_c=20",
+    ),
     "rotor.sweep(design, mass_kg=['heavy'])": (TypeError, "heavy"),
     "design.at(mass=8000)": (TypeError, "no argument 'mass'; did you mean 'mass_kg'?"),
-    "rotor.sweep(design, twist=['linear:-8'])": (TypeError, "'twist': write rotor.sweep([design.with_twist("),
+    "rotor.sweep(design, twist=['linear:-8'])": (
+        TypeError,
+        "'twist': write rotor.sweep([design.with_twist(",
+    ),
     "design.at(twist='linear:-8')": (TypeError, "no argument 'twist': write design.with_twist(…)"),
-    "design.at(rotor='s61')": (TypeError, "no argument 'rotor': write rotor.make_design(case=design, rotor=…)"),
+    "design.at(rotor='s61')": (
+        TypeError,
+        "no argument 'rotor': write rotor.make_design(case=design, rotor=…)",
+    ),
     "rotor.make_design(rotor=60)": (TypeError, "rotor 60 is not a rotor"),
-    "rotor.make_design(rotor='xv15', drag_area_m2=3)": (ValueError, "drag_area_m2 3 has no effect on a test stand"),
-    "rotor.make_design(preset='best')": (ValueError, "preset 'best' is not known: use flight or thesis"),
+    "rotor.make_design(rotor='xv15', drag_area_m2=3)": (
+        ValueError,
+        "drag_area_m2 3 has no effect on a test stand",
+    ),
+    "rotor.make_design(preset='best')": (
+        ValueError,
+        "preset 'best' is not known: use flight or thesis",
+    ),
     "rotor.parse_twist('builtin')": (ValueError, "twist 'builtin' needs a rotor"),
     "rotor.solve('uh60a')": (TypeError, "design is 'uh60a': give what rotor.make_design"),
     "rotor.solve(design, start=design)": (TypeError, "give an earlier solution or leave it out"),
     "rotor.sweep(design, mu=0.2)": (TypeError, "give a list, for example mu=[0.1, 0.2, 0.3]"),
     "rotor.sweep(design)": (TypeError, "a sweep over nothing: give one of mu, speed_kt, mass_kg"),
-    "rotor.sweep(design, mu=[0.1], mass_kg=[8000])": (TypeError, "a sweep over mu and mass_kg: give one of"),
-    "rotor.Limits(rate_deg=-20)": (TypeError, "give the steepest and the flattest, for example (-20, 0)"),
+    "rotor.sweep(design, mu=[0.1], mass_kg=[8000])": (
+        TypeError,
+        "a sweep over mu and mass_kg: give one of",
+    ),
+    "rotor.Limits(rate_deg=-20)": (
+        TypeError,
+        "give the steepest and the flattest, for example (-20, 0)",
+    ),
     "rotor.Limits(change_deg=-1)": (ValueError, "change limit -1° is negative: give 0 or more"),
-    "rotor.optimise(design, limits=2.0)": (TypeError, "limits is 2.0: give rotor.Limits(rate_deg=(-20, 0))"),
+    "rotor.optimise(design, limits=2.0)": (
+        TypeError,
+        "limits is 2.0: give rotor.Limits(rate_deg=(-20, 0))",
+    ),
     "rotor.optimise(design, conditions=0.3)": (TypeError, "give pairs of advance ratio and weight"),
-    "rotor.optimise(design, conditions=[(rotor.make_design(rotor='r22'), 1)])": (ValueError, "use one rotor"),
+    "rotor.optimise(design, conditions=[(rotor.make_design(rotor='r22'), 1)])": (
+        ValueError,
+        "use one rotor",
+    ),
     "rotor.schedule(design, mu=0.1)": (TypeError, "mu is 0.1: give a list of advance ratios"),
-    "rotor.schedule(design, mu=[0.1], concepts='linear')": (TypeError, "give a list, concepts=['linear']"),
+    "rotor.schedule(design, mu=[0.1], concepts='linear')": (
+        TypeError,
+        "give a list, concepts=['linear']",
+    ),
     "rotor.solve(solution)": (TypeError, ": give what rotor.make_design"),
-    "rotor.with_actuator('MFC_P1', design)": (TypeError, "design is 'MFC_P1': give what rotor.make_design"),
+    "rotor.with_actuator('MFC_P1', design)": (
+        TypeError,
+        "design is 'MFC_P1': give what rotor.make_design",
+    ),
     "rotor.SweepTable((design,))": (TypeError, "give what rotor.solve returns"),
     "design.save('none/a.json')": (OSError, "none/a.json'"),
     "rotor.distribution(design)": (TypeError, "give what rotor.solve returns"),
     "rotor.hub_loads('x')": (TypeError, "solution is 'x': give what rotor.solve returns"),
     "rotor.hub_loads(design)": (TypeError, "give what rotor.solve returns"),
     "rotor.doubt(design)": (TypeError, "give what rotor.solve returns"),
-    "rotor.optimise(design, 3)": (TypeError, 'concept is 3, not a text: write for example "linear"'),
+    "rotor.optimise(design, 3)": (
+        TypeError,
+        'concept is 3, not a text: write for example "linear"',
+    ),
     "rotor.optimise(design, starts='many')": (TypeError, "starts is 'many': give a whole number"),
     "rotor.plot_power(design)": (TypeError, "plot_power got Design: give what rotor.sweep returns"),
-    "design.save('a.toml')": (ValueError, "'a.toml' ends in .toml, but what is written is JSON: write 'a.json'"),
-    "rotor.plot_field(solution, 'noise')": (ValueError, "field 'noise' is not known: use one of alpha"),
+    "design.save('a.toml')": (
+        ValueError,
+        "'a.toml' ends in .toml, but what is written is JSON: write 'a.json'",
+    ),
+    "rotor.plot_field(solution, 'noise')": (
+        ValueError,
+        "field 'noise' is not known: use one of alpha",
+    ),
     "rotor.vibration_front(bent, points=1)": (ValueError, "1 points"),
     "rotor.vibration_front(bent, reach_deg=0.0)": (ValueError, "reach 0°"),
     "rotor.vibration_front(bent, 'screw')": (ValueError, "screw"),
@@ -90,14 +161,29 @@ WRONG = {
     "rotor.t_matrix(bent.at(mu=0.1))": (ValueError, "below µ 0.2"),
     "rotor.t_matrix(design.at(mu=0.3))": (ValueError, "--bending"),
     "rotor.t_matrix(bent, (2,)).response('3:1:0')": (ValueError, "no 3/rev"),
-    "stand({'ct_over_sigma': 0.07, 'flapping': 'hub-moments'}, rotor='pca2')": (ValueError, "on blades hinged at"),
-    "stand({'ct_over_sigma': 0.07, 'hub_roll_nm': 5.0}, rotor='hart2')": (ValueError, "set flapping to hub-moments"),
-    "stand({**MOMENTS, 'cyclic_1c_deg': 1.0}, rotor='hart2')": (ValueError, "needed to trim the hub moments"),
-    "stand({**MOMENTS, 'hub_roll_nm': 20.0}, rotor='hart2', mu=0.0)": (ValueError, "in hover the rotor is balanced"),
+    "stand({'ct_over_sigma': 0.07, 'flapping': 'hub-moments'}, rotor='pca2')": (
+        ValueError,
+        "on blades hinged at",
+    ),
+    "stand({'ct_over_sigma': 0.07, 'hub_roll_nm': 5.0}, rotor='hart2')": (
+        ValueError,
+        "set flapping to hub-moments",
+    ),
+    "stand({**MOMENTS, 'cyclic_1c_deg': 1.0}, rotor='hart2')": (
+        ValueError,
+        "needed to trim the hub moments",
+    ),
+    "stand({**MOMENTS, 'hub_roll_nm': 20.0}, rotor='hart2', mu=0.0)": (
+        ValueError,
+        "in hover the rotor is balanced",
+    ),
     "stand({})": (ValueError, "none of them"),
     "stand({'thrust_n': 1.0, 'collective_deg': 2.0})": (ValueError, "thrust_n and collective_deg"),
     "stand({'ct_over_sigma': 0.5})": (ValueError, "outside 0…0.25"),
-    "stand({'collective_deg': 5.0, 'cyclic_1c_deg': 1.0})": (ValueError, "needed to trim the flapping"),
+    "stand({'collective_deg': 5.0, 'cyclic_1c_deg': 1.0})": (
+        ValueError,
+        "needed to trim the flapping",
+    ),
     "stand({'collective_deg': '5'})": (ValueError, "give a number"),
     "stand({'pitch': 5.0})": (ValueError, "is not known"),
 }
@@ -191,7 +277,11 @@ ALIKE = {
 """Calls that are alike, and what is wrong in each: a `ValueError`."""
 ROWS = {
     **WRONG,
-    **{call.format(what): (ValueError, words) for call, rows in ALIKE.items() for what, words in rows.items()},
+    **{
+        call.format(what): (ValueError, words)
+        for call, rows in ALIKE.items()
+        for what, words in rows.items()
+    },
 }
 
 COMMANDS = {
@@ -270,7 +360,9 @@ def sprung(lines: str) -> rotor.Aircraft:
     own = ("flap_spring_nm_rad", "precone_deg", "hub =")
     text = asset_path("bo105.toml").read_text(encoding="utf-8").splitlines()
     kept = "\n".join(line for line in text if not line.startswith(own))
-    return read_aircraft("own.toml", {"own.toml": kept.replace("[main_rotor]", f"[main_rotor]\n{lines}", 1)})
+    return read_aircraft(
+        "own.toml", {"own.toml": kept.replace("[main_rotor]", f"[main_rotor]\n{lines}", 1)}
+    )
 
 
 NAMES: dict[str, Any] = {
@@ -286,7 +378,9 @@ NAMES: dict[str, Any] = {
 
 
 @pytest.mark.parametrize("call", ROWS, ids=lambda call: call[:80])
-def test_a_call_fails_at_once(call: str, design: rotor.Design, solution: rotor.Solution, tmp_path: Path):
+def test_a_call_fails_at_once(
+    call: str, design: rotor.Design, solution: rotor.Solution, tmp_path: Path
+):
     def written(text: str) -> str:
         (path := tmp_path / "bad.txt").write_text(text, encoding="utf-8")
         return str(path)
@@ -304,5 +398,7 @@ def test_a_call_fails_at_once(call: str, design: rotor.Design, solution: rotor.S
 def test_a_command_ends_with_one_line(command: str, refused: Callable[..., str], tmp_path: Path):
     """And exit code 2."""
     study = str(asset_path("studies") / "hover_cruise_264")
-    words = (word.replace("STUDY", study).replace("OUT", str(tmp_path)) for word in shlex.split(command))
+    words = (
+        word.replace("STUDY", study).replace("OUT", str(tmp_path)) for word in shlex.split(command)
+    )
     assert COMMANDS[command] in refused(*words)

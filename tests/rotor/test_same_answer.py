@@ -37,7 +37,11 @@ ALL = [*range(len(DESIGNS))]
 def answer(number: int) -> list[str]:
     """From a cold start: trim, power, elastic twist, loads on the hub, gradient."""
     solution = rotor.solve(rotor.make_design(**DESIGNS[number])).require()
-    found = [*astuple(solution.controls), *astuple(solution.last_power), *power_gradient(solution).by_element]
+    found = [
+        *astuple(solution.controls),
+        *astuple(solution.last_power),
+        *power_gradient(solution).by_element,
+    ]
     if solution.elastic is not None:
         found += solution.elastic.coordinates.ravel().tolist()
     if solution.design.models.bending and (loads := rotor.hub_loads(solution)) is not None:
@@ -48,7 +52,9 @@ def answer(number: int) -> list[str]:
 def answers(order: list[int], threads: int = 1) -> dict[str, list[str]]:
     """From a fresh process."""
     words = ["-m", "tests.rotor.test_same_answer", ",".join(map(str, order)), str(threads)]
-    done = subprocess.run([sys.executable, *words], cwd=ROOT, capture_output=True, text=True, check=True)
+    done = subprocess.run(
+        [sys.executable, *words], cwd=ROOT, capture_output=True, text=True, check=True
+    )
     return json.loads(done.stdout)
 
 
@@ -62,7 +68,10 @@ def test_in_two_orders_in_threads_and_each_alone() -> None:
 @pytest.mark.parametrize("inflow", ["lifting-line", "pitt-peters"])
 def test_a_blade_that_bends_forgets_the_altitude_before(inflow: str) -> None:
     """One of two altitudes is the first that this blade is solved at; both in a row, there and back, are as alone."""
-    low, high = (rotor.make_design(mu=0.3, bending=True, inflow=inflow, altitude_m=own) for own in (0.0, 3000.0))
+    low, high = (
+        rotor.make_design(mu=0.3, bending=True, inflow=inflow, altitude_m=own)
+        for own in (0.0, 3000.0)
+    )
     for designs in ((low, high), (high, low)):
         empty_caches()
         in_a_row = [rotor.solve(design).last_power for design in designs]
@@ -75,7 +84,10 @@ def test_a_blade_that_bends_forgets_the_altitude_before(inflow: str) -> None:
 
 def test_gradients_in_threads_are_those_alone() -> None:
     """Many at the same time with one structure: of the same equations at other states."""
-    designs = [rotor.make_design(mu=0.2, twist=f"linear:{rate}", inflow="pitt-peters") for rate in (-4, -8, -12, -16)]
+    designs = [
+        rotor.make_design(mu=0.2, twist=f"linear:{rate}", inflow="pitt-peters")
+        for rate in (-4, -8, -12, -16)
+    ]
     solutions = [rotor.solve(design).require() for design in designs]
 
     def gradient(solution: rotor.Solution) -> Array:

@@ -21,7 +21,9 @@ def piped(monkeypatch: pytest.MonkeyPatch, encoding: str) -> tuple[io.BytesIO, i
     """Output and errors as bytes, as a pipe of that encoding takes them."""
     pipes = io.BytesIO(), io.BytesIO()
     for name, pipe in zip(("stdout", "stderr"), pipes, strict=True):
-        monkeypatch.setattr(sys, name, io.TextIOWrapper(pipe, encoding=encoding, write_through=True))
+        monkeypatch.setattr(
+            sys, name, io.TextIOWrapper(pipe, encoding=encoding, write_through=True)
+        )
     return pipes
 
 
@@ -71,12 +73,22 @@ def caused(error: BaseException, by: BaseException) -> BaseException:
         (OverflowError("too large"), 2, "rotor: too large\n"),
         (RecursionError(), 2, "rotor: the input is nested too deeply: simplify it\n"),
         (MemoryError(), 2, "rotor: there is not enough memory: ask for less at once\n"),
-        (PermissionError(13, "Permission denied", "a.csv"), 2, "rotor: 'a.csv' cannot be used (Permission denied)"),
+        (
+            PermissionError(13, "Permission denied", "a.csv"),
+            2,
+            "rotor: 'a.csv' cannot be used (Permission denied)",
+        ),
         (KeyboardInterrupt(), 130, "rotor: stopped\n"),
-        (caused(SystemError("kernel"), caused(SystemError("kernel"), KeyboardInterrupt())), 130, "rotor: stopped\n"),
+        (
+            caused(SystemError("kernel"), caused(SystemError("kernel"), KeyboardInterrupt())),
+            130,
+            "rotor: stopped\n",
+        ),
     ],
 )
-def test_failures_are_one_line(error: BaseException, code: int, says: str, capsys: pytest.CaptureFixture[str]):
+def test_failures_are_one_line(
+    error: BaseException, code: int, says: str, capsys: pytest.CaptureFixture[str]
+):
     def run() -> int:
         raise error
 
@@ -86,7 +98,9 @@ def test_failures_are_one_line(error: BaseException, code: int, says: str, capsy
     assert err.count("\n") == 1
 
 
-@pytest.mark.parametrize("run", [lambda: main(["solve", "--hover"]), lambda: explorer(["--port", "0"])])
+@pytest.mark.parametrize(
+    "run", [lambda: main(["solve", "--hover"]), lambda: explorer(["--port", "0"])]
+)
 def test_a_closed_output_is_one_line(
     run: Callable[[], int], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ):
@@ -156,5 +170,7 @@ sys.meta_path.insert(0, Finder())
 sys.argv = ["-m", "solve"] if {module!r} == "rotor" else ["-m", "--no-browser", "--port", "0"]
 runpy.run_module({module!r}, run_name="__main__", alter_sys=True)
 """
-    ended = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, timeout=120)
+    ended = subprocess.run(
+        [sys.executable, "-c", program], capture_output=True, text=True, timeout=120
+    )
     assert (ended.returncode, ended.stderr) == (code, said)

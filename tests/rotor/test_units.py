@@ -5,7 +5,14 @@ import math
 import pytest
 
 from rotor.support import units
-from rotor.support.units import degrees_text, digits_text, power_text, power_unit, typographic, unit_of
+from rotor.support.units import (
+    degrees_text,
+    digits_text,
+    power_text,
+    power_unit,
+    typographic,
+    unit_of,
+)
 
 
 def test_constants_by_definition():
@@ -43,7 +50,11 @@ def test_a_power_is_in_watts_below_a_kilowatt(power: float, digits: int, text: s
 
 
 def test_powers_side_by_side_have_one_unit():
-    assert [power_unit(), power_unit(3.0, -999.0), power_unit(3.0, -2e3)] == [("W", 1.0), ("W", 1.0), ("kW", 1e3)]
+    assert [power_unit(), power_unit(3.0, -999.0), power_unit(3.0, -2e3)] == [
+        ("W", 1.0),
+        ("W", 1.0),
+        ("kW", 1e3),
+    ]
 
 
 def test_the_unit_is_the_end_of_a_name():

@@ -13,7 +13,14 @@ from rotor.files.design_file import load_design, parse_design
 from rotor.files.rotor_file import load_rotor
 from rotor.optimisation.objective import read_mission
 from rotor.study.study_file import read_study
-from rotor.support.user_input import check_writable, did_you_mean, make_folder, read_text, refusing, write_whole
+from rotor.support.user_input import (
+    check_writable,
+    did_you_mean,
+    make_folder,
+    read_text,
+    refusing,
+    write_whole,
+)
 
 READERS = {
     "design": load_design,
@@ -52,7 +59,9 @@ def test_devices_and_pipes_are_refused_without_waiting(reader: str, tmp_path: Pa
 
 
 @pytest.mark.parametrize("reader", READERS)
-@pytest.mark.parametrize("name", ["a" * 300, "a" * 300 + ".toml", "a/" * 3000 + "b.json", "a\0b.toml", "."])
+@pytest.mark.parametrize(
+    "name", ["a" * 300, "a" * 300 + ".toml", "a/" * 3000 + "b.json", "a\0b.toml", "."]
+)
 def test_names_that_no_file_can_have_are_refused(reader: str, name: str):
     sentence_of(READERS[reader], Path(name))
 
@@ -66,7 +75,11 @@ def test_a_file_that_is_too_large_is_refused_without_being_read(reader: str, tmp
 
 
 DEEP = {
-    "design": ["[" * 100_000 + "]" * 100_000, '{"rotor":' * 1500 + "1" + "}" * 1500, f'{{"mass_kg": {DIGITS}}}'],
+    "design": [
+        "[" * 100_000 + "]" * 100_000,
+        '{"rotor":' * 1500 + "1" + "}" * 1500,
+        f'{{"mass_kg": {DIGITS}}}',
+    ],
     "rotor": ["a = " + "[" * 1500 + "]" * 1500, f'name = "a"\n[main_rotor]\nradius_m = {DIGITS}'],
     "study": ["a = " + "[" * 1500 + "]" * 1500, f"[study]\ntitle = {DIGITS}"],
     "mission": [f"mu\n{DIGITS}"],
@@ -74,7 +87,9 @@ DEEP = {
 }
 
 
-@pytest.mark.parametrize(("reader", "text"), [(name, text) for name, texts in DEEP.items() for text in texts])
+@pytest.mark.parametrize(
+    ("reader", "text"), [(name, text) for name, texts in DEEP.items() for text in texts]
+)
 def test_deep_nesting_and_long_numbers_are_refused(reader: str, text: str, tmp_path: Path):
     path = tmp_path / "deep"
     path.write_text(text, encoding="utf-8")
@@ -114,7 +129,9 @@ def test_every_failure_becomes_a_sentence(error: Exception):
     ],
     ids=lambda arguments: " ".join(arguments)[:40],
 )  # fmt: skip
-def test_the_command_line_refuses_in_one_short_line(arguments: list[str], refused: Callable[..., str]):
+def test_the_command_line_refuses_in_one_short_line(
+    arguments: list[str], refused: Callable[..., str]
+):
     assert len(refused(*arguments)) <= 410
 
 
@@ -154,7 +171,9 @@ def test_a_file_that_cannot_be_written_is_reported_before_the_work(
     assert list(tmp_path.iterdir()) == []
 
 
-def test_no_folder_is_left_where_nothing_can_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_no_folder_is_left_where_nothing_can_be_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
     def full(**_: object) -> None:
         raise OSError(28, "No space left on device")
 
@@ -182,7 +201,9 @@ def test_a_file_that_can_be_written_stays_as_it_is(tmp_path: Path):
     assert make_folder(tmp_path / "x" / "y").is_dir()
 
 
-def test_a_save_on_a_full_disk_leaves_the_earlier_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+def test_a_save_on_a_full_disk_leaves_the_earlier_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
     path = tmp_path / "design.json"
     write_whole(path, "earlier")
     path.chmod(0o640)

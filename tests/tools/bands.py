@@ -12,7 +12,9 @@ from rotor.validation.doubt import MODEL, fitted, points_and_bands
 def with_sizes(text: str, sizes: tuple[float, ...]) -> str:
     """The text of assets/doubt.toml with other sizes of `MODEL`, in per cent to the next half."""
     for name, size in zip(MODEL, sizes, strict=True):
-        text = re.sub(rf"(\[{name}\]\nwords = .*\nsize = )[\d.]+", rf"\g<1>{round(200.0 * size) / 2}", text)
+        text = re.sub(
+            rf"(\[{name}\]\nwords = .*\nsize = )[\d.]+", rf"\g<1>{round(200.0 * size) / 2}", text
+        )
     return text
 
 

@@ -81,7 +81,9 @@ def measure_batch() -> dict[str, float]:
     designs = [trim_of(values, study) for values in study.values(first, first + _POINTS)]
     return {
         "each by itself": _points_per_second(lambda: [solve(design) for design in designs]),
-        "as a study works them off": _points_per_second(lambda: evaluate_points(study, first, first + _POINTS)),
+        "as a study works them off": _points_per_second(
+            lambda: evaluate_points(study, first, first + _POINTS)
+        ),
     }
 
 
@@ -96,11 +98,20 @@ def main(argv: list[str] | None = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--json", action="store_true", help="machine-readable output")
     other = parser.add_mutually_exclusive_group()
-    other.add_argument("--against", type=Path, metavar="DIR", help="time another checkout too, and print the ratios")
-    other.add_argument("--release", action="store_true", help="time the last release too")
-    other.add_argument("--page", action="store_true", help="write docs/measured.md, on an idle machine")
     other.add_argument(
-        "--brief", action="store_true", help="only the models of the page, in seconds: how fast it is here"
+        "--against",
+        type=Path,
+        metavar="DIR",
+        help="time another checkout too, and print the ratios",
+    )
+    other.add_argument("--release", action="store_true", help="time the last release too")
+    other.add_argument(
+        "--page", action="store_true", help="write docs/measured.md, on an idle machine"
+    )
+    other.add_argument(
+        "--brief",
+        action="store_true",
+        help="only the models of the page, in seconds: how fast it is here",
     )
     args = parser.parse_args(argv)
     if args.page:
@@ -156,13 +167,25 @@ def report(answer: dict[str, Any]) -> str:
     lines = [
         "milliseconds of processor time (median), flight preset, mean of µ 0.10…0.35; lifting line and elastic blade",
         "where nothing else is said, linear inflow on 40 × 48\n",
-        *(_line(name, value, "10.3f", targets.get(name), "≤") for name, value in answer["ms"].items()),
+        *(
+            _line(name, value, "10.3f", targets.get(name), "≤")
+            for name, value in answer["ms"].items()
+        ),
         "\nunsteady flow and dynamic stall over steady sections, medians of pairs\n",
-        *(_line(name, value, "10.2f", TARGETS_UNSTEADY[name], "≤") for name, value in unsteady.items()),
+        *(
+            _line(name, value, "10.2f", TARGETS_UNSTEADY[name], "≤")
+            for name, value in unsteady.items()
+        ),
         "\nseconds, lifting line, elastic blade\n",
-        *(_line(name, value, "10.2f", targets.get(name), "≤") for name, value in answer["seconds"].items()),
+        *(
+            _line(name, value, "10.2f", targets.get(name), "≤")
+            for name, value in answer["seconds"].items()
+        ),
         "\ntrims a second and core, elastic blades sampled over speed, weight, altitude and twist\n",
-        *(_line(name, value, "10.0f", answer["target_per_second"], "≥") for name, value in batch.items()),
+        *(
+            _line(name, value, "10.0f", answer["target_per_second"], "≥")
+            for name, value in batch.items()
+        ),
         _line("10⁵ of them on two cores [minutes]", minutes, "10.1f", 30.0, "≤"),
     ]
     if ratios := answer.get("time_over_theirs"):
@@ -179,13 +202,18 @@ def started(checkout: Path) -> subprocess.Popen[str]:
     The kernels of both are compiled before, side by side.
     """
     own = (checkout / "tests/tools/bench.py").exists()
-    words = ["tests.tools.bench"] if own else ["rotor", "bench"]  # A command of rotor until version 0.3.
+    # A command of rotor until version 0.3.
+    words = ["tests.tools.bench"] if own else ["rotor", "bench"]
     warm, quiet = [sys.executable, "-m", "rotor", "warm"], subprocess.DEVNULL
-    begun = [subprocess.Popen(warm, cwd=place, stdout=quiet, stderr=quiet) for place in (_ROOT, checkout)]
+    begun = [
+        subprocess.Popen(warm, cwd=place, stdout=quiet, stderr=quiet) for place in (_ROOT, checkout)
+    ]
     for compiling in begun:
         compiling.wait()
     call = [sys.executable, "-m", *words, "--json"]
-    return subprocess.Popen(call, cwd=checkout, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    return subprocess.Popen(
+        call, cwd=checkout, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    )
 
 
 def unpacked_release(folder: Path) -> Path | None:
@@ -206,7 +234,9 @@ def unpacked_release(folder: Path) -> Path | None:
 def _git(*words: str, done: str = "") -> str:
     """What git answers, or `done` where that is nothing; empty where it fails or is missing."""
     with suppress(OSError):
-        answer = subprocess.run(["git", *words], cwd=_ROOT, capture_output=True, text=True, check=False)
+        answer = subprocess.run(
+            ["git", *words], cwd=_ROOT, capture_output=True, text=True, check=False
+        )
         if answer.returncode == 0:
             return answer.stdout.strip() or done
     return ""
@@ -221,7 +251,11 @@ def time_ratios(ours: dict[str, Any], theirs: dict[str, Any]) -> dict[str, float
         if name in theirs[kind]
     }
     batch = "trims_per_second_and_core"
-    return ratios | {name: theirs[batch][name] / rate for name, rate in ours[batch].items() if name in theirs[batch]}
+    return ratios | {
+        name: theirs[batch][name] / rate
+        for name, rate in ours[batch].items()
+        if name in theirs[batch]
+    }
 
 
 def _line(name: str, value: float, form: str, target: float | None, sign: str) -> str:
@@ -249,17 +283,25 @@ def measure(cases: dict[str, dict[str, Any]] = _CASES, runs: int = 15) -> dict[s
         problems = [build_problem(design) for design in designs]
         points = [newton(problem, first_guess(problem)).linear.point for problem in problems]
         figures[f"{beside}evaluation"] = _mean(
-            lambda point: evaluate(point.system, point.system.grid, point.x, slopes=True, flow=True), points, 50
+            lambda point: evaluate(
+                point.system, point.system.grid, point.x, slopes=True, flow=True
+            ),
+            points,
+            50,
         )
         figures[f"{beside}cold"] = _mean(lambda design: solve(_new(design)), designs, runs)
         for solution in solutions:
             power_gradient(solution)  # As of a design that the page shows.
         pairs = list(zip(nearby, solutions, strict=True))
         figures[f"{beside}warm"] = _mean(lambda pair: solve(*pair), pairs, runs)
-        figures[f"{beside}warm, new speed"] = _mean(lambda pair: solve(_new(pair[0]), pair[1]), pairs, runs)
+        figures[f"{beside}warm, new speed"] = _mean(
+            lambda pair: solve(_new(pair[0]), pair[1]), pairs, runs
+        )
         figures[f"{beside}moving"] = statistics.fmean(map(_moving, solutions))
         figures[f"{beside}gradient"] = statistics.fmean(starmap(partial(_gradient, runs), pairs))
-        figures[f"{beside}doubt"] = _mean(power_changes, [analyse(design).adjoint for design in designs], runs)
+        figures[f"{beside}doubt"] = _mean(
+            power_changes, [analyse(design).adjoint for design in designs], runs
+        )
     figures["hover, cold"] = _time(lambda: solve(make_design(preset="flight", mu=0.0)), runs)
     return figures
 
@@ -273,12 +315,16 @@ def measure_unsteady(pairs: int = 30) -> dict[str, float]:
     for mu in _ADVANCE_RATIOS:
         cases: list[tuple[Design, Design, Solution]] = []
         for off in (None, "unsteady,dynamic-stall"):
-            begun, nearby = (make_design(twist=twist, mu=mu, off=off) for twist in ("linear:-16", "linear:-15.5"))
+            begun, nearby = (
+                make_design(twist=twist, mu=mu, off=off) for twist in ("linear:-16", "linear:-15.5")
+            )
             start = solve(begun)
             power_gradient(start)
             cases.append((begun, nearby, start))
         times = np.array([[_three(*case) for case in cases] for _ in range(pairs + 1)])[1:]
-        for name, ratio in zip(ratios, np.median(times[:, 0] / times[:, 1], axis=0).tolist(), strict=True):
+        for name, ratio in zip(
+            ratios, np.median(times[:, 0] / times[:, 1], axis=0).tolist(), strict=True
+        ):
             ratios[name].append(ratio)
     return {name: statistics.fmean(each) for name, each in ratios.items()}
 
@@ -324,7 +370,9 @@ def _moving(start: Solution) -> float:
     design, latest, times = start.design, start, list[float]()
     for k in (*range(1, 17), *range(15, 0, -1)):
         begin = time.process_time()
-        latest = analyse(design.with_twist(f"linear:{-16.0 + 0.25 * k}"), latest, FEW_DIGITS).solution
+        latest = analyse(
+            design.with_twist(f"linear:{-16.0 + 0.25 * k}"), latest, FEW_DIGITS
+        ).solution
         times.append(time.process_time() - begin)
     return 1e3 * statistics.median(times)
 

@@ -74,9 +74,15 @@ def moment_trimmed(mu: float) -> Solution:
     """The thesis' rotor in propulsive trim with three-state gains, no loss factors and, as dynbem's, rigid blades."""
     design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=mu, airfoils=SECTION)
     models = replace(
-        design.models, trim="propulsive", disk_axial_flow=True, inflow="pitt-peters", tip_loss=False, hub_loss=False
+        design.models,
+        trim="propulsive",
+        disk_axial_flow=True,
+        inflow="pitt-peters",
+        tip_loss=False,
+        hub_loss=False,
     )
-    blade = replace(design.rotor.blade, flap_inertia=1e8 * design.rotor.blade.flap_inertia)  # Too heavy to cone.
+    # Too heavy to cone.
+    blade = replace(design.rotor.blade, flap_inertia=1e8 * design.rotor.blade.flap_inertia)
     return solve(replace(design, models=models, rotor=replace(design.rotor, blade=blade))).require()
 
 
@@ -95,10 +101,13 @@ def dynbem_case(solution: Solution) -> tuple[Any, Any, Any]:
     )  # fmt: skip
     definition = dynbem.RotorDefinition(
         blade,
-        dynbem.LinearPolarParameters(0.0, 6.0, 0.01, 12.0),  # Not used: replaced by the table below.
+        # Not used: replaced by the table below.
+        dynbem.LinearPolarParameters(0.0, 6.0, 0.01, 12.0),
         control=dynbem.ControlProperties(swashplate_pitch_gain_rad=1.0),
     )
-    table = dynbem.TabulatedPolar(alpha, np.ascontiguousarray(polar.cl), np.ascontiguousarray(polar.cd))
+    table = dynbem.TabulatedPolar(
+        alpha, np.ascontiguousarray(polar.cl), np.ascontiguousarray(polar.cd)
+    )
     model = dynbem.PittPetersModel(definition, table, grid_of(design)[1])
     speed, tilt = design.airspeed, controls.shaft_tilt
     # World axes: x forward, z down; azimuth from the nose, so both cyclics change sign.
@@ -137,7 +146,9 @@ def _settle(model: Any, inputs: Any, state: Any) -> tuple[Any, Any]:
     """Forces and inflow states where the rates of these are zero."""
 
     def rates(x: Array) -> Array:
-        return np.array(model.compute_forces(inputs, state.from_array(x))[1].to_array(), dtype=np.float64)
+        return np.array(
+            model.compute_forces(inputs, state.from_array(x))[1].to_array(), dtype=np.float64
+        )
 
     solution = root(rates, np.array(state.to_array(), dtype=np.float64), tol=1e-13)
     assert np.abs(rates(solution.x)).max() < 1e-10, solution.message
@@ -161,7 +172,9 @@ class _MirroredSection:
 
 def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
     ccblade: Any = importlib.import_module("wisdem.ccblade.ccblade")
-    design = make_design(preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass, airfoils=SECTION)
+    design = make_design(
+        preset="thesis", twist=f"linear:{RATE_DEG}", mu=0.0, mass_kg=mass, airfoils=SECTION
+    )
     models = replace(design.models, hover_inflow="annulus", hub_loss=False)
     solution = solve(replace(design, models=models)).require()
     rotor = design.rotor
@@ -174,7 +187,9 @@ def _one_ccblade(mass: float, swirl: bool) -> CodeComparison:
         wakerotation=swirl, usecd=True, shearExp=0.0,
     )  # fmt: skip
     rpm = rotor.angular_speed * 60.0 / (2.0 * math.pi)
-    loads, _ = code.distributedAeroLoads(AXIAL_SPEED, rpm, math.degrees(solution.controls.collective), 0.0)
+    loads, _ = code.distributedAeroLoads(
+        AXIAL_SPEED, rpm, math.degrees(solution.controls.collective), 0.0
+    )
     # Summed as here, element by element; CCBlade's own sum adds zero loads at both ends of the blade.
     width = rotor.radius * (1.0 - root) / n
     thrust = -rotor.blades * float(np.asarray(loads["Np"]).sum()) * width

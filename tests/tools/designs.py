@@ -33,15 +33,30 @@ def draw(random: np.random.Generator, rotor: str) -> dict[str, Any]:
     """Arguments of `make_design`: rotor, preset, twist, speed, load, climb, n/rev inputs, stand, bending."""
     craft = shipped_aircraft(rotor)
     tested = craft.isolated or random.random() < 0.1
-    preset = PRESETS[int(not tested and random.random() < 0.2)]  # A stand needs the axial flow of the tilted disk.
+    # A stand needs the axial flow of the tilted disk.
+    preset = PRESETS[int(not tested and random.random() < 0.2)]
     mu = 0.0 if random.random() < 0.1 else round(float(random.uniform(0.0005, 0.45)), 4)
-    rate, break_at = (round(float(x), 3) for x in (random.uniform(-20.0, 5.0), random.uniform(0.3, 0.8)))
-    twists = [None, f"linear:{rate}", f"segments:{rate},{round(float(random.uniform(-20.0, 5.0)), 3)}@{break_at}"]
-    asked: dict[str, Any] = {"rotor": rotor, "preset": preset, "mu": mu, "twist": twists[int(random.integers(3))]}
+    rate, break_at = (
+        round(float(x), 3) for x in (random.uniform(-20.0, 5.0), random.uniform(0.3, 0.8))
+    )
+    twists = [
+        None,
+        f"linear:{rate}",
+        f"segments:{rate},{round(float(random.uniform(-20.0, 5.0)), 3)}@{break_at}",
+    ]
+    asked: dict[str, Any] = {
+        "rotor": rotor,
+        "preset": preset,
+        "mu": mu,
+        "twist": twists[int(random.integers(3))],
+    }
     if tested:
         trim = ("wind-tunnel", "wind-tunnel", "free-rotor", "controls")[int(random.integers(4))]
         trim = "wind-tunnel" if mu == 0.0 else trim
-        tilt, load = round(float(random.uniform(-10.0, 10.0)), 2), round(float(random.uniform(0.02, 0.11)), 4)
+        tilt, load = (
+            round(float(random.uniform(-10.0, 10.0)), 2),
+            round(float(random.uniform(0.02, 0.11)), 4),
+        )
         given = {"collective_deg": round(float(random.uniform(2.0, 12.0)), 2)}
         if trim != "controls" and random.random() < 0.7:
             given = {"ct_over_sigma": load}
@@ -59,10 +74,17 @@ def draw(random: np.random.Generator, rotor: str) -> dict[str, Any]:
                 n, size = int(random.integers(2, 7)), round(float(random.uniform(0.0, 2.0)), 2)
                 asked[name] = f"{n}:{size}:{int(random.integers(360))}"
         structure = craft.rotor.blade.structure
-        if structure is not None and structure.flap_stiffness and not tested and random.random() < 0.3:
+        if (
+            structure is not None
+            and structure.flap_stiffness
+            and not tested
+            and random.random() < 0.3
+        ):
             asked["bending"] = True
         if random.random() < 0.3:
-            asked["inflow"] = ("pitt-peters", "drees", "local-momentum", "lifting-line")[int(random.integers(4))]
+            asked["inflow"] = ("pitt-peters", "drees", "local-momentum", "lifting-line")[
+                int(random.integers(4))
+            ]
     return {key: value for key, value in asked.items() if value is not None}
 
 
@@ -101,11 +123,17 @@ def _tried(asked: dict[str, Any], design: Design) -> Outcome:
     tries: list[int] = []
     solution = solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: bool(tries.append(1))))
     plain = _plain(design)
-    first = not tries or _same(solution, solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: True)))
+    first = not tries or _same(
+        solution, solve(design, options=replace(DEFAULT_OPTIONS, stop=lambda: True))
+    )
     if said := wrong(solution):
         return Outcome(asked, "wrong", said, first, plain, solution.stalled_moment)
     mu = design.condition.advance_ratio
-    neighbour = solve(design.at(mu=max(0.97 * mu, mu - 0.01))) if mu else solve(design.with_twist("linear:-9"))
+    neighbour = (
+        solve(design.at(mu=max(0.97 * mu, mu - 0.01)))
+        if mu
+        else solve(design.with_twist("linear:-9"))
+    )
     warm = solve(design, neighbour)
     stalled = max(solution.stalled_moment, warm.stalled_moment)
     kind, said = "trimmed", ""
@@ -116,19 +144,33 @@ def _tried(asked: dict[str, Any], design: Design) -> Outcome:
         kind, said = "refused", solution.message
     elif not _same(solution, warm):
         kind = "in deep stall" if stalled > MOST_STALLED else "other power"
-        said = f"cold {solution.last_power.main_rotor:.3f} W, warm {warm.last_power.main_rotor:.3f} W"
+        said = (
+            f"cold {solution.last_power.main_rotor:.3f} W, warm {warm.last_power.main_rotor:.3f} W"
+        )
     return Outcome(asked, kind, said, first, plain, stalled)
 
 
 def _same(one: Solution, other: Solution) -> bool:
     """Whether both trimmed, with the same power."""
-    power, scale = one.last_power.main_rotor, max(abs(one.last_power.main_rotor), one.last_power.profile)
-    return one.converged and other.converged and abs(power - other.last_power.main_rotor) <= SAME * scale
+    power, scale = (
+        one.last_power.main_rotor,
+        max(abs(one.last_power.main_rotor), one.last_power.profile),
+    )
+    return (
+        one.converged
+        and other.converged
+        and abs(power - other.last_power.main_rotor) <= SAME * scale
+    )
 
 
 def _plain(design: Design) -> bool:
     condition = design.condition
-    if condition.stand is not None or condition.climb_speed or design.pitch_per_rev or design.active_twist:
+    if (
+        condition.stand is not None
+        or condition.climb_speed
+        or design.pitch_per_rev
+        or design.active_twist
+    ):
         return False
     loading = design.weight_coefficient / design.rotor.solidity
     return loading <= TRIMMABLE[0] and condition.advance_ratio <= TRIMMABLE[1]
@@ -137,7 +179,11 @@ def _plain(design: Design) -> bool:
 def wrong(solution: Solution) -> str:
     """What no solution may be: not finite, not closed, without a sentence; nothing where all is well."""
     message = solution.message
-    if not message.endswith(".") or "\n" in message or re.search(r"\bnan\b|\binf\b", message.lower()):
+    if (
+        not message.endswith(".")
+        or "\n" in message
+        or re.search(r"\bnan\b|\binf\b", message.lower())
+    ):
         return f"message {message!r}"
     for caveat in solution.caveats:
         if not caveat.sentence.endswith(".") or "\n" in caveat.sentence:

@@ -45,12 +45,20 @@ def faults_at(node: ast.AST) -> Iterator[tuple[str, ast.AST]]:
     first = node.ops[0] if isinstance(node, ast.Compare) else getattr(node, "op", None)
     if first and (other := OPERATORS.get(type(first))):
         wrong = copy(node)
-        vars(wrong).update({"ops": [other(), *node.ops[1:]]} if isinstance(node, ast.Compare) else {"op": other()})
+        vars(wrong).update(
+            {"ops": [other(), *node.ops[1:]]} if isinstance(node, ast.Compare) else {"op": other()}
+        )
         yield f"{type(first).__name__} → {other.__name__}", wrong
     if isinstance(node, ast.UnaryOp) and isinstance(node.op, ast.Not):
         yield "Not left out", node.operand
     if isinstance(node, ast.Constant) and isinstance(was := node.value, bool | int | float):
-        now = not was if isinstance(was, bool) else was + 1 if isinstance(was, int) else 1.01 * was or 0.01
+        now = (
+            not was
+            if isinstance(was, bool)
+            else was + 1
+            if isinstance(was, int)
+            else 1.01 * was or 0.01
+        )
         yield f"{was!r} → {now!r}", ast.Constant(now)
     if isinstance(node, ast.Return) and not isinstance(node.value, ast.Constant | None):
         yield "returns None", ast.Return(ast.Constant(None))
@@ -72,14 +80,22 @@ def faults_in(tree: ast.Module) -> list[tuple[ast.AST, str, ast.AST]]:
     for node in ast.walk(tree):
         for part in (*getattr(node, "decorator_list", ()), getattr(node, "annotation", None)):
             left_out |= {*ast.walk(part)} if part else set()
-    return [(node, *one) for node in ast.walk(tree) if node not in left_out for one in faults_at(node)]
+    return [
+        (node, *one) for node in ast.walk(tree) if node not in left_out for one in faults_at(node)
+    ]
 
 
 def name_around(tree: ast.Module, line: int) -> str:
     """The innermost function or class, or the constant, at a line."""
-    names = [ast.unparse(one.targets[0]) for one in tree.body if isinstance(one, ast.Assign) and one.lineno <= line]
+    names = [
+        ast.unparse(one.targets[0])
+        for one in tree.body
+        if isinstance(one, ast.Assign) and one.lineno <= line
+    ]
     for node in ast.walk(tree):
-        if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.lineno <= line <= (node.end_lineno or 0):
+        if isinstance(node, ast.FunctionDef | ast.ClassDef) and node.lineno <= line <= (
+            node.end_lineno or 0
+        ):
             names.append(node.name)
     return names[-1] if names else ""
 
@@ -88,8 +104,15 @@ def sample(parts: list[str], each: int, seed: int) -> list[tuple[str, str, str, 
     """File, line with words, name around it and text of as many faults of each part."""
     chosen, draw = dict[tuple[str, str], tuple[str, str]](), random.Random(seed)
     for part in parts:
-        texts = {file: file.read_text("utf-8") for file in sorted((ROOT / part).rglob("*.py")) or [ROOT / part]}
-        known = [(file, k) for file, text in texts.items() for k in range(len(faults_in(ast.parse(text))))]
+        texts = {
+            file: file.read_text("utf-8")
+            for file in sorted((ROOT / part).rglob("*.py")) or [ROOT / part]
+        }
+        known = [
+            (file, k)
+            for file, text in texts.items()
+            for k in range(len(faults_in(ast.parse(text))))
+        ]
         for file, k in draw.sample(known, min(each, len(known))):
             right, words, wrong = faults_in(tree := ast.parse(texts[file]))[k]
             line = getattr(right, "lineno", 0)
@@ -103,11 +126,20 @@ def imported_by() -> dict[str, set[str]]:
     """By module, the files that import it or something of it; a name of `rotor` is of the module that it is from."""
     users = defaultdict[str, set[str]](set)
     public = ast.parse((ROOT / "rotor" / "public.py").read_text("utf-8")).body
-    homes = {one.name: node.module for node in public if isinstance(node, ast.ImportFrom) for one in node.names}
+    homes = {
+        one.name: node.module
+        for node in public
+        if isinstance(node, ast.ImportFrom)
+        for one in node.names
+    }
     for folder in ("rotor", "explorer", "tests"):
         for path in (ROOT / folder).rglob("*.py"):
             for node in ast.walk(ast.parse(path.read_text("utf-8"))):
-                names = [alias.name for alias in getattr(node, "names", []) if isinstance(alias, ast.alias)]
+                names = [
+                    alias.name
+                    for alias in getattr(node, "names", [])
+                    if isinstance(alias, ast.alias)
+                ]
                 if isinstance(node, ast.ImportFrom):
                     own = [homes.get(name, "") for name in names if node.module == "rotor"]
                     names = [f"{node.module}", *own, *(f"{node.module}.{name}" for name in names)]
@@ -120,14 +152,19 @@ def tests_of(file: str, name: str, users: dict[str, set[str]]) -> list[str]:
     """Tests that import a file, then those that import what does, and so on; before all, those that say the name."""
     seen, front, found = {file}, [file], list[str]()
     while front:
-        modules = [one.removesuffix(".py").removesuffix("/__init__").replace("/", ".") for one in front]
+        modules = [
+            one.removesuffix(".py").removesuffix("/__init__").replace("/", ".") for one in front
+        ]
         front = sorted({user for module in modules for user in users[module]} - seen)
         seen |= {*front}
         found += [one for one in front if re.match(r"tests/(rotor|explorer)/.*test_\w+\.py", one)]
     said, own = re.compile(rf"\b{re.escape(name)}\b"), f"test_{Path(file).stem}.py"
-    return sorted(found, key=lambda test: not test.endswith(own) and not said.search((ROOT / test).read_text("utf-8")))[
-        :MOST
-    ]
+    return sorted(
+        found,
+        key=lambda test: (
+            not test.endswith(own) and not said.search((ROOT / test).read_text("utf-8"))
+        ),
+    )[:MOST]
 
 
 def run(checkout: Path, tests: list[str]) -> tuple[int, str]:
@@ -136,7 +173,12 @@ def run(checkout: Path, tests: list[str]) -> tuple[int, str]:
     limit = partial(resource.setrlimit, resource.RLIMIT_CPU, (SECONDS, SECONDS))
     try:
         done = subprocess.run(
-            command, cwd=checkout, capture_output=True, text=True, preexec_fn=limit, timeout=10.0 * SECONDS
+            command,
+            cwd=checkout,
+            capture_output=True,
+            text=True,
+            preexec_fn=limit,
+            timeout=10.0 * SECONDS,
         )
     except subprocess.TimeoutExpired:
         return -signal.SIGXCPU, ""
@@ -152,7 +194,8 @@ def noticed(checkout: Path, file: str, text: str, tests: list[str]) -> str:
         code, out = run(checkout, tests)
     finally:
         place.write_bytes(before)
-        os.utime(place, ns=(stat.st_atime_ns, stat.st_mtime_ns))  # The kernels kept for it serve again.
+        # The kernels kept for it serve again.
+        os.utime(place, ns=(stat.st_atime_ns, stat.st_mtime_ns))
     failed = re.search(r"^(?:FAILED|ERROR) (.+?)(?: - .*)?$", out, re.M)
     if failed and run(checkout, [failed[1]])[0]:
         raise RuntimeError(f"{failed[1]} fails without the fault too: mend it first")
@@ -164,7 +207,9 @@ def noticed(checkout: Path, file: str, text: str, tests: list[str]) -> str:
 def main() -> int:
     """Print each fault with the test that notices it, and how many of each part are noticed."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("parts", nargs="*", default=list(PARTS), metavar="PART", help="file or folder")
+    parser.add_argument(
+        "parts", nargs="*", default=list(PARTS), metavar="PART", help="file or folder"
+    )
     parser.add_argument("--each", type=int, default=6, help="faults of each part")
     parser.add_argument("--seed", type=int, default=1)
     args = parser.parse_args()

@@ -137,8 +137,13 @@ def least_twisted_power(
     cos, sin, ones = np.cos(line.psi), np.sin(line.psi), np.ones_like(line.psi)
     controls = [np.outer(np.ones_like(line.r), column) for column in (ones, cos, sin)]
     controls += [np.outer(shape, ones) for shape in (shapes if shapes is not None else ())]
-    given = u_t * twist[:, None] - course.mu_z - lines.mean_inflow - course.mu_x * course.coning * cos
-    pushes = np.stack([(gain * push).ravel() for push in [given, *(u_t * control for control in controls)]], axis=1)
+    given = (
+        u_t * twist[:, None] - course.mu_z - lines.mean_inflow - course.mu_x * course.coning * cos
+    )
+    pushes = np.stack(
+        [(gain * push).ravel() for push in [given, *(u_t * control for control in controls)]],
+        axis=1,
+    )
     # The inflow answers: Γ + gain A Γ/D = gain (U_T θ − U_P without A Γ/D).
     system = np.eye(len(pushes)) + gain.ravel()[:, None] * lines.matrix
     circulation: Array = np.linalg.solve(system, pushes).astype(np.float64)
@@ -183,7 +188,9 @@ def _minimise(form: Array, slope: Array, equations: Array, wanted: Array) -> Arr
     return solution[:n].astype(np.float64)
 
 
-def _minimise_within(form: Array, equations: Array, wanted: Array, bounds: Array, least: Array) -> Array:
+def _minimise_within(
+    form: Array, equations: Array, wanted: Array, bounds: Array, least: Array
+) -> Array:
     """Least xᵀ form x subject to equations x = wanted and bounds x ≥ least.
 
     On the null space of the equations and in coordinates where the form is a sum of squares this is the point of a
@@ -204,7 +211,9 @@ def _minimise_within(form: Array, equations: Array, wanted: Array, bounds: Array
     target[-1] = 1.0
     weights, left = scipy.optimize.nnls(system / size, target, maxiter=20 * len(system))
     if left < 1e-9:
-        raise ValueError("no circulation within the lift limit makes this thrust without moments: allow a higher C_l")
+        raise ValueError(
+            "no circulation within the lift limit makes this thrust without moments: allow a higher C_l"
+        )
     residual = system / size @ weights - target
     return particular - along @ residual[:-1] / residual[-1] * scale
 
@@ -263,7 +272,8 @@ def find_bound(design: Design) -> Bound:
     linear = least_twisted_power(lines, ct, chord, 0.0 * r, straight[None])
     try:
         limited = factor(least_induced_power(lines, ct, chord=chord, cl_range=LIFT_LIMIT))
-    except ValueError:  # None carries this thrust, or the form is indefinite, which it can be at µ 0.4.
+    except ValueError:
+        # None carries this thrust, or the form is indefinite, which it can be at µ 0.4.
         limited = math.inf
     return Bound(
         mu=design.condition.advance_ratio,
@@ -309,4 +319,6 @@ def row(design: Design) -> tuple[str, ...]:
 
 if __name__ == "__main__":
     made = [row(make_design(mu=mu, mass_kg=mass)) for mu in SPEEDS for mass in MASSES]
-    asset_path("ideal_bound.csv").write_text(csv_text([COLUMNS, *made], HEADING), encoding="utf-8", newline="")
+    asset_path("ideal_bound.csv").write_text(
+        csv_text([COLUMNS, *made], HEADING), encoding="utf-8", newline=""
+    )

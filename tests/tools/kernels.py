@@ -21,7 +21,9 @@ print(*{one["architecture"] for one in threadpoolctl.threadpool_info() if one["u
 def runs(name: str) -> str:
     """The kernels with which the processor computes when asked for these; empty where it cannot."""
     environment = {**os.environ, "OPENBLAS_CORETYPE": name}
-    done = subprocess.run([sys.executable, "-c", TRY], env=environment, capture_output=True, text=True)
+    done = subprocess.run(
+        [sys.executable, "-c", TRY], env=environment, capture_output=True, text=True
+    )
     return "" if done.returncode else done.stdout.strip()
 
 
@@ -29,5 +31,8 @@ if __name__ == "__main__":
     found = {name: runs(name) for name in sys.argv[1:]}
     for name, kernels in found.items():
         if kernels != name:
-            print(f"{name}: " + (f"those of {kernels}" if kernels else "left out, cannot run here"), file=sys.stderr)
+            print(
+                f"{name}: " + (f"those of {kernels}" if kernels else "left out, cannot run here"),
+                file=sys.stderr,
+            )
     print(*(name for name, kernels in found.items() if kernels))

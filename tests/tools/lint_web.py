@@ -17,12 +17,16 @@ _FOREIGN = re.compile(r"mantine|uplot|multi-slider|ui-")
 _LONGEST = 120
 """Characters of a line of a script, as in Python."""
 _VOID = {"br", "hr", "img", "input", "link", "meta"}
-_DECLARATION = re.compile(r"-{0,2}[a-z][\w-]*\s*:\s*\S[^:{}]*|--[\w-]+\s*:[^{}]+|[a-z-]+\s*:\s*\S.*url\(.*")
+_DECLARATION = re.compile(
+    r"-{0,2}[a-z][\w-]*\s*:\s*\S[^:{}]*|--[\w-]+\s*:[^{}]+|[a-z-]+\s*:\s*\S.*url\(.*"
+)
 
 
 def faults() -> list[str]:
     """One sentence for each."""
-    sheets = {path.name: _bare(path.read_text(encoding="utf-8")) for path in sorted(FOLDER.glob("*.css"))}
+    sheets = {
+        path.name: _bare(path.read_text(encoding="utf-8")) for path in sorted(FOLDER.glob("*.css"))
+    }
     others = "".join(
         path.read_text(encoding="utf-8")
         for path in sorted((ROOT / "explorer").rglob("*"))
@@ -32,7 +36,11 @@ def faults() -> list[str]:
     defined = set(re.findall(r"(--[\w-]+)['\"]?\s*[:,]", "".join(sheets.values()) + others))
     for name, sheet in sheets.items():
         used = set(re.findall(r"var\((--[\w-]+)", sheet))
-        found += [f"{name}: nobody sets {one}" for one in sorted(used - defined) if not _FOREIGN.search(one)]
+        found += [
+            f"{name}: nobody sets {one}"
+            for one in sorted(used - defined)
+            if not _FOREIGN.search(one)
+        ]
         selectors = " ".join(re.findall(r"([^{};@]+)\{", sheet))
         classes = set(re.findall(r"\.([a-zA-Z][\w-]*)", selectors))
         found += [
@@ -47,13 +55,17 @@ def faults() -> list[str]:
             if len(line) > _LONGEST
         ]
     for path in sorted(FOLDER.glob("*.html")):
-        found += [f"{path.name}: {fault}" for fault in html_faults(path.read_text(encoding="utf-8"))]
+        found += [
+            f"{path.name}: {fault}" for fault in html_faults(path.read_text(encoding="utf-8"))
+        ]
     return found
 
 
 def sheet_faults(sheet: str) -> list[str]:
     """Faults of one style sheet: braces that do not match, and declarations that are none."""
-    depths = list(accumulate({"{": 1, "}": -1}[brace] for brace in re.findall("[{}]", _bare(sheet))))
+    depths = list(
+        accumulate({"{": 1, "}": -1}[brace] for brace in re.findall("[{}]", _bare(sheet)))
+    )
     if min(depths, default=0) < 0:
         return ["a brace is closed that was not opened"]
     found = ["a brace is not closed"] if depths and depths[-1] else []
@@ -100,7 +112,10 @@ def _is_named(name: str, others: str) -> bool:
     if re.search(rf"(?<![\w-]){name}(?![\w-])", others):
         return True
     stem, _, end = name.rpartition("-")
-    return re.search(rf"{stem}-\$?\{{", others) is not None and re.search(rf"[\"' ]{end}[\"']", others) is not None
+    return (
+        re.search(rf"{stem}-\$?\{{", others) is not None
+        and re.search(rf"[\"' ]{end}[\"']", others) is not None
+    )
 
 
 if __name__ == "__main__":

@@ -37,7 +37,10 @@ def main() -> int:
         python = place / "venv" / "bin" / "python"
         pip = (str(python), "-m", "pip", "--quiet", "--disable-pip-version-check", "install")
         subprocess.run([*pip, "--only-binary", ":all:", *pins, str(wheel)], check=True, cwd=place)
-        theirs, ours = solve(python, place)["power_w"]["total"], solve(Path(sys.executable), place)["power_w"]["total"]
+        theirs, ours = (
+            solve(python, place)["power_w"]["total"],
+            solve(Path(sys.executable), place)["power_w"]["total"],
+        )
         page = fetch_page(python, place)
     same = abs(theirs - ours) <= 1e-6 * ours
     print(json.dumps({"power_w": theirs, "here": ours, "page": len(page)}))

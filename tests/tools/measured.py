@@ -58,7 +58,9 @@ def write(timed: Callable[[], dict[str, Any]]) -> None:
 
 def about() -> dict[str, Any]:
     """When and on what."""
-    names = re.findall(r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE)
+    names = re.findall(
+        r"^model name\s*: (.*)$", Path("/proc/cpuinfo").read_text(encoding="utf-8"), re.MULTILINE
+    )
     return {
         "date": datetime.now(UTC).strftime("%Y-%m-%d"),
         "version": rotor.__version__,
@@ -75,7 +77,13 @@ def compile_seconds() -> float:
     with TemporaryDirectory(prefix="kernels-") as empty:
         before = resource.getrusage(resource.RUSAGE_CHILDREN)
         asked = {**os.environ, "NUMBA_CACHE_DIR": empty}
-        subprocess.run([sys.executable, "-m", "rotor", "warm"], cwd=ROOT, env=asked, check=True, capture_output=True)
+        subprocess.run(
+            [sys.executable, "-m", "rotor", "warm"],
+            cwd=ROOT,
+            env=asked,
+            check=True,
+            capture_output=True,
+        )
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
     return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
@@ -84,11 +92,17 @@ def compile_seconds() -> float:
 def served() -> Iterator[tuple[str, int]]:
     """Address and process of a server of its own."""
     call = [sys.executable, "-m", "explorer", "--port", "0", "--no-browser"]
-    with subprocess.Popen(call, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True) as process:
+    with subprocess.Popen(
+        call, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    ) as process:
         assert process.stdout is not None
         try:
             yield (
-                next(found[0] for line in process.stdout if (found := re.search(r"http://127[^\s/]+", line))),
+                next(
+                    found[0]
+                    for line in process.stdout
+                    if (found := re.search(r"http://127[^\s/]+", line))
+                ),
                 process.pid,
             )
         finally:
@@ -116,7 +130,8 @@ async def drag(visitor: Visitor, k: int, seconds: float) -> list[float]:
 async def visit(address: str, process: int, pages: int) -> dict[str, float]:
     """So many pages of different flights that drag at once."""
     visitors = [
-        await arrived(address, query=f"?d=1;linear:-{4 + 0.5 * k:g};mu=0.31;alt={100 * k}") for k in range(pages)
+        await arrived(address, query=f"?d=1;linear:-{4 + 0.5 * k:g};mu=0.31;alt={100 * k}")
+        for k in range(pages)
     ]
     each = await asyncio.gather(*(drag(one, k, SECONDS) for k, one in enumerate(visitors)))
     took = sorted(time for times in each for time in times)
@@ -124,7 +139,12 @@ async def visit(address: str, process: int, pages: int) -> dict[str, float]:
     for visitor in visitors:
         await visitor.close()
     half, late = (round(1e3 * took[int(part * len(took))]) for part in (0.5, 0.95))
-    return {"p50_ms": half, "p95_ms": late, "frames": round(len(took) / pages / SECONDS, 1), "mb": round(used)}
+    return {
+        "p50_ms": half,
+        "p95_ms": late,
+        "frames": round(len(took) / pages / SECONDS, 1),
+        "mb": round(used),
+    }
 
 
 def loads() -> dict[str, dict[str, float]]:
@@ -146,11 +166,17 @@ def page(data: dict[str, Any]) -> str:
     alone, many = (data["pages"][key] for key in ("1", str(PAGES)))
     each = (many["mb"] - alone["mb"]) / (PAGES - 1)
     per_trim = 1e3 / data["trims_per_second_and_core"]["as a study works them off"]
-    solver = [(words, *(f"{times[f'{column}{row}']:.2g}" for column in _COLUMNS)) for row, words in _ROWS.items()]
+    solver = [
+        (words, *(f"{times[f'{column}{row}']:.2g}" for column in _COLUMNS))
+        for row, words in _ROWS.items()
+    ]
     other = [
         ("a trim of hover, cold", f"{times['hover, cold']:.2g} ms"),
         ("a trim of the study `hundred_thousand.toml`", f"{per_trim:.2g} ms"),
-        *((f"the {name}, with its band", f"{seconds:.2g} s") for name, seconds in data["seconds"].items()),
+        *(
+            (f"the {name}, with its band", f"{seconds:.2g} s")
+            for name, seconds in data["seconds"].items()
+        ),
         ("all kernels compiled, once for each version", f"{data['kernels_s']:.0f} s"),
     ]
     load = [
@@ -159,7 +185,9 @@ def page(data: dict[str, Any]) -> str:
         ("frames of each page in a second", f"{alone['frames']}", f"{many['frames']}"),
         ("memory of the server", f"{alone['mb']} MB", f"{many['mb']} MB"),
     ]
-    made = f"{data['date']}, version {data['version']}, {data['cores']} cores of {data['processor']}"
+    made = (
+        f"{data['date']}, version {data['version']}, {data['cores']} cores of {data['processor']}"
+    )
     return f"""# Speed, memory and load, measured
 
 `make bench ARGS=--page` writes this page. {made}, Python {data["python"]}, numba {data["numba"]}.

@@ -29,7 +29,9 @@ TESTS = (
     "tests/rotor/engine/test_linearised.py", "tests/rotor/files/test_flown_rotors.py",
 )  # fmt: skip
 """Those that compare trims with theory, identities and other methods."""
-SURVIVORS = {"inflow/local_momentum.py:SectorTerms.build+3": "only where the search for the inflow of a point begins"}
+SURVIVORS = {
+    "inflow/local_momentum.py:SectorTerms.build+3": "only where the search for the inflow of a point begins"
+}
 """Terms whose loss no test may notice, and why."""
 
 
@@ -51,7 +53,13 @@ def _patch(left_out: str, found: set[str]) -> None:
             term(self, equation, *rest, **named)
 
     def own_column(
-        self: Structure, channel: int, shape: Any, wave: int, factor: float, *rest: Any, **named: Any
+        self: Structure,
+        channel: int,
+        shape: Any,
+        wave: int,
+        factor: float,
+        *rest: Any,
+        **named: Any,
     ) -> None:
         name = _named(sys._getframe(), "")
         found.add(name)
@@ -74,8 +82,21 @@ def pytest_sessionfinish() -> None:
 
 def run(tests: tuple[str, ...], **environment: str) -> subprocess.CompletedProcess[str]:
     """The tests in a process of their own, up to the first that fails."""
-    command = [sys.executable, "-m", "pytest", "-q", "-x", "-n", "0", "-p", "tests.tools.mutation", *tests]
-    return subprocess.run(command, cwd=ROOT, env={**os.environ, **environment}, capture_output=True, text=True)
+    command = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-x",
+        "-n",
+        "0",
+        "-p",
+        "tests.tools.mutation",
+        *tests,
+    ]
+    return subprocess.run(
+        command, cwd=ROOT, env={**os.environ, **environment}, capture_output=True, text=True
+    )
 
 
 def main() -> int:

@@ -18,7 +18,14 @@ from explorer.parts import Parts
 from explorer.parts.presses import PRESSES
 
 FILE = Path(__file__).parents[2] / "explorer" / "web" / "parts.d.ts"
-_PLAIN = {str: "string", int: "number", float: "number", bool: "boolean", types.NoneType: "null", None: "null"}
+_PLAIN = {
+    str: "string",
+    int: "number",
+    float: "number",
+    bool: "boolean",
+    types.NoneType: "null",
+    None: "null",
+}
 _HEAD = "// Made by `python -m tests.tools.page_types` from explorer/parts and presses.PRESSES: change those."
 
 
@@ -46,7 +53,9 @@ class _Declared:
             return f"({inner})[]" if " | " in inner else f"{inner}[]"
         if origin in (dict, Mapping):
             return f"Record<{', '.join(self.type_of(one) for one in arguments)}>"
-        if isinstance(kind, type) and (dataclasses.is_dataclass(kind) or issubclass(kind, msgspec.Struct)):
+        if isinstance(kind, type) and (
+            dataclasses.is_dataclass(kind) or issubclass(kind, msgspec.Struct)
+        ):
             return self._declare(kind)
         raise TypeError(f"{kind} has no counterpart in the page: see tests/tools/page_types.py")
 
@@ -55,13 +64,20 @@ class _Declared:
         if name not in self.texts:
             self.texts[name] = ""
             config: Any = getattr(kind, "__struct_config__", None)
-            fields = {field: self.type_of(one) for field, one in get_type_hints(kind, include_extras=True).items()}
+            fields = {
+                field: self.type_of(one)
+                for field, one in get_type_hints(kind, include_extras=True).items()
+            }
             if config is not None and config.array_like:
-                self.texts[name] = f"type {name} = [{', '.join(f'{field}: {one}' for field, one in fields.items())}];"
+                self.texts[name] = (
+                    f"type {name} = [{', '.join(f'{field}: {one}' for field, one in fields.items())}];"
+                )
                 return name
             if config is not None and config.omit_defaults:
                 known = {one.name: one.required for one in msgspec.structs.fields(kind)}
-                fields = {field if known[field] else f"{field}?": one for field, one in fields.items()}
+                fields = {
+                    field if known[field] else f"{field}?": one for field, one in fields.items()
+                }
             if config is not None and config.tag is not None:
                 fields = {config.tag_field: f"'{config.tag}'"} | fields
             self.texts[name] = _interface(name, fields)
@@ -69,13 +85,18 @@ class _Declared:
 
 
 def _interface(name: str, fields: Mapping[str, str]) -> str:
-    return "\n".join([f"interface {name} {{", *(f"  {field}: {one};" for field, one in fields.items()), "}"])
+    return "\n".join(
+        [f"interface {name} {{", *(f"  {field}: {one};" for field, one in fields.items()), "}"]
+    )
 
 
 def page_types() -> str:
     """The text of the file."""
     declared = _Declared()
-    parts = {name: declared.type_of(kind) for name, kind in get_type_hints(Parts, include_extras=True).items()}
+    parts = {
+        name: declared.type_of(kind)
+        for name, kind in get_type_hints(Parts, include_extras=True).items()
+    }
     presses = {name: declared.type_of(kind) for name, kind in PRESSES.items()}
     tables = _interface("RxState", parts), _interface("RxPresses", presses)
     return "\n\n".join([_HEAD, *tables, *declared.texts.values()]) + "\n"

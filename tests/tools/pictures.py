@@ -48,14 +48,20 @@ def main() -> int:
         return 0
     browser_path = find_chromium()
     if browser_path is None:
-        print("No Chromium found: `make browser` gets one, ROTOR_CHROMIUM names one.", file=sys.stderr)
+        print(
+            "No Chromium found: `make browser` gets one, ROTOR_CHROMIUM names one.", file=sys.stderr
+        )
         return 1
     app = App("127.0.0.1", 0, START)
     try:
         with sync_playwright() as playwright:
-            browser = playwright.chromium.launch(executable_path=browser_path, args=list(LAUNCH_ARGUMENTS))
+            browser = playwright.chromium.launch(
+                executable_path=browser_path, args=list(LAUNCH_ARGUMENTS)
+            )
             context = browser.new_context(
-                viewport={"width": SIZE[0], "height": SIZE[1]}, color_scheme="light", reduced_motion="reduce"
+                viewport={"width": SIZE[0], "height": SIZE[1]},
+                color_scheme="light",
+                reduced_motion="reduce",
             )
             context.add_init_script(_AS_WITH_A_GPU)
             page = context.new_page()
@@ -80,7 +86,9 @@ def _twisted(page: Page) -> bytes:
     swept = "() => RX.state.strip[0].chart.series.some(one => one.filled && one.y.some(y => Math.abs(y) > 1))"
     page.wait_for_function(swept, timeout=WAIT)
     page.wait_for_function("() => Object.keys(RX.state.worth).length >= 6", timeout=WAIT)
-    page.wait_for_function("() => !document.querySelector('.mantine-Notification-root')", timeout=WAIT)
+    page.wait_for_function(
+        "() => !document.querySelector('.mantine-Notification-root')", timeout=WAIT
+    )
     page.wait_for_timeout(6_000)  # The fine picture of the disk is drawn once nothing moves.
     return page.screenshot(timeout=WAIT)
 
@@ -101,12 +109,19 @@ def _twisting(page: Page) -> list[bytes]:
 def _write_moving(pictures: list[bytes], path: Path) -> None:
     """There and back, for ever, as a WebP."""
     frames = [
-        Image.open(io.BytesIO(one)).convert("RGB").resize(MOVING_SIZE, Image.Resampling.LANCZOS) for one in pictures
+        Image.open(io.BytesIO(one)).convert("RGB").resize(MOVING_SIZE, Image.Resampling.LANCZOS)
+        for one in pictures
     ]
     there_and_back = [*frames, *frames[-2:0:-1]]
     times = [900 if k in (0, len(frames) - 1) else 220 for k in range(len(there_and_back))]
     there_and_back[0].save(
-        path, save_all=True, append_images=there_and_back[1:], duration=times, loop=0, quality=68, method=6
+        path,
+        save_all=True,
+        append_images=there_and_back[1:],
+        duration=times,
+        loop=0,
+        quality=68,
+        method=6,
     )
     _weigh(path)
 

@@ -26,13 +26,17 @@ ROTORS = {
 def judged() -> dict[str, bool]:
     """Measured sets that have a target, and whether each row meets it."""
     rows = [row for row in trust_rows() if row.target and row.kind == "validation"]
-    return {one.set: all(row.verdict == "met" for row in rows if row.set == one.set) for one in rows}
+    return {
+        one.set: all(row.verdict == "met" for row in rows if row.set == one.set) for one in rows
+    }
 
 
 def verdicts(met: dict[str, bool], names: tuple[str, ...]) -> str:
     """The verdicts of some sets, each once, with a link to its set."""
     words = {met[name]: name for name in names if name in met}
-    return ", ".join(f"[{'met' if one else 'missed'}](docs/validation/{name}.md)" for one, name in words.items())
+    return ", ".join(
+        f"[{'met' if one else 'missed'}](docs/validation/{name}.md)" for one, name in words.items()
+    )
 
 
 def cells(row: TrustRow) -> tuple[str, str]:

@@ -49,10 +49,29 @@ def build(folder: Path) -> Path:
     found = subprocess.run(command, cwd=ROOT, capture_output=True, text=True)
     if not found.returncode:
         os.environ["SOURCE_DATE_EPOCH"] = found.stdout.strip()
-    _do(sys.executable, "-m", "hatchling", "build", "--target", "sdist", "--directory", str(folder), cwd=ROOT)
+    _do(
+        sys.executable,
+        "-m",
+        "hatchling",
+        "build",
+        "--target",
+        "sdist",
+        "--directory",
+        str(folder),
+        cwd=ROOT,
+    )
     (sdist,) = folder.glob("*.tar.gz")
     pip = (sys.executable, "-m", "pip", "--quiet", "--disable-pip-version-check")
-    _do(*pip, "wheel", "--no-deps", "--no-build-isolation", "--wheel-dir", str(folder), str(sdist), cwd=folder)
+    _do(
+        *pip,
+        "wheel",
+        "--no-deps",
+        "--no-build-isolation",
+        "--wheel-dir",
+        str(folder),
+        str(sdist),
+        cwd=folder,
+    )
     (wheel,) = folder.glob("*.whl")
     return wheel
 
@@ -95,7 +114,9 @@ def install(wheel: Path, folder: Path, *, borrow: bool, interpreter: str = sys.e
 
 def run(python: Path, *arguments: str, cwd: Path) -> str:
     """What a command of the environment prints; RuntimeError when it fails or writes to stderr."""
-    done = subprocess.run([python, *arguments], cwd=cwd, capture_output=True, text=True, timeout=900)
+    done = subprocess.run(
+        [python, *arguments], cwd=cwd, capture_output=True, text=True, timeout=900
+    )
     if done.returncode or done.stderr:
         raise RuntimeError(f"{' '.join(arguments)} ended with {done.returncode}: {done.stderr}")
     return done.stdout
@@ -137,7 +158,9 @@ def study(python: Path, cwd: Path) -> str:
 
 def first_example() -> str:
     """The first Python example of the documentation's start page."""
-    found = re.search(r"```python\n(.*?)```", (ROOT / "docs" / "index.md").read_text(encoding="utf-8"), re.DOTALL)
+    found = re.search(
+        r"```python\n(.*?)```", (ROOT / "docs" / "index.md").read_text(encoding="utf-8"), re.DOTALL
+    )
     if found is None:
         raise RuntimeError("docs/index.md has no Python example")
     return found[1]
@@ -148,22 +171,30 @@ def package_faults(folder: Path) -> str:
     wheels, both = [*folder.glob("*.whl")], [*folder.glob("*.whl"), *folder.glob("*.tar.gz")]
     said = ""
     for (module, *words), files in zip(CHECKS, (both, wheels), strict=True):
-        done = subprocess.run([sys.executable, "-m", module, *words, *files], capture_output=True, text=True)
+        done = subprocess.run(
+            [sys.executable, "-m", module, *words, *files], capture_output=True, text=True
+        )
         said += f"{done.stdout}{done.stderr} " if done.returncode else ""
     return " ".join(said.split())
 
 
-def version_faults(pyproject: str, changelog: str, citation: str, others: dict[str, str]) -> list[str]:
+def version_faults(
+    pyproject: str, changelog: str, citation: str, others: dict[str, str]
+) -> list[str]:
     """What is wrong with the version, in sentences. `others`: texts that must not repeat it."""
     version = tomllib.loads(pyproject)["project"]["version"]
     sections = re.split(r"^## \[(.*?)\].*$", changelog, flags=re.MULTILINE)
     titles, bodies = sections[1::2], sections[2::2]
-    faults = [f"{name} repeats the version {version}" for name, text in others.items() if version in text]
+    faults = [
+        f"{name} repeats the version {version}" for name, text in others.items() if version in text
+    ]
     if "Unreleased" in titles and bodies[titles.index("Unreleased")].strip():
         faults.append("CHANGELOG.md has entries under Unreleased: give them the version and a date")
     newest = next((title for title in titles if title != "Unreleased"), None)
     if newest != version:
-        faults.append(f"the newest version in CHANGELOG.md is {newest}, in pyproject.toml {version}")
+        faults.append(
+            f"the newest version in CHANGELOG.md is {newest}, in pyproject.toml {version}"
+        )
     cited = re.findall(r"^(?:version|date-released): (\S+)$", citation, flags=re.MULTILINE)
     dated = re.findall(r"^## \[(\d.*?)\] \S (\S+)", changelog, flags=re.MULTILINE)
     if [tuple(cited)] != dated[:1]:
@@ -178,8 +209,13 @@ def licence_faults(names: Iterable[str]) -> list[str]:
     faults: list[str] = []
     for name in names:
         stated = metadata(name)
-        entries = [*(stated.get_all("License-Expression") or ()), *(stated.get_all("License") or ())]
-        entries += [entry for entry in stated.get_all("Classifier") or () if entry.startswith("License ::")]
+        entries = [
+            *(stated.get_all("License-Expression") or ()),
+            *(stated.get_all("License") or ()),
+        ]
+        entries += [
+            entry for entry in stated.get_all("Classifier") or () if entry.startswith("License ::")
+        ]
         licence = "; ".join(entry.splitlines()[0] for entry in entries)  # Some give the whole text.
         if "GPL" in licence or not any(word in licence for word in PERMISSIVE):
             faults.append(f"{name} is under {licence or 'no stated licence'}")
@@ -190,23 +226,39 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
     """Each item of the checklist with what is wrong; empty when it is met."""
     texts = {
         name: (ROOT / name).read_text(encoding="utf-8")
-        for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff", "rotor/__init__.py", "explorer/__init__.py")
+        for name in (
+            "pyproject.toml",
+            "CHANGELOG.md",
+            "CITATION.cff",
+            "rotor/__init__.py",
+            "explorer/__init__.py",
+        )
     }
-    project, changelog, citation = (texts.pop(name) for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff"))
+    project, changelog, citation = (
+        texts.pop(name) for name in ("pyproject.toml", "CHANGELOG.md", "CITATION.cff")
+    )
     faults = version_faults(project, changelog, citation, texts)
     yield "version in one place, changelog", "; ".join(faults)
-    pins = re.findall(r"^([\w.-]+)==", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    pins = re.findall(
+        r"^([\w.-]+)==", (ROOT / "requirements.txt").read_text(encoding="utf-8"), flags=re.MULTILINE
+    )
     yield f"licences of {len(pins)} pinned packages", "; ".join(licence_faults(pins))
     wheel = build(folder)
     with tempfile.TemporaryDirectory() as name:
         place = Path(name)
         build(place)
         yield "metadata and contents, by twine and check-wheel-contents", package_faults(folder)
-        yield "two builds give the same bytes", "" if digests(place) == digests(folder) else "sdist or wheel differ"
+        yield (
+            "two builds give the same bytes",
+            "" if digests(place) == digests(folder) else "sdist or wheel differ",
+        )
         for version in PYTHONS:
             interpreter = find_python(version)
             if interpreter is None:
-                yield f"wheel alone on Python {version}", "not tried: no such interpreter on this machine"
+                yield (
+                    f"wheel alone on Python {version}",
+                    "not tried: no such interpreter on this machine",
+                )
                 continue
             try:
                 python = install(wheel, place / version, borrow=False, interpreter=interpreter)
@@ -225,8 +277,12 @@ def items(folder: Path) -> Iterator[tuple[str, str]]:
 
 def main() -> int:
     """Build into `--out` and go through the list; 1 if an item is not met."""
-    parser = argparse.ArgumentParser(description="The checklist of a release: build, compare, install, use.")
-    parser.add_argument("--out", type=Path, default=ROOT / "dist", help="folder for sdist and wheel (default dist)")
+    parser = argparse.ArgumentParser(
+        description="The checklist of a release: build, compare, install, use."
+    )
+    parser.add_argument(
+        "--out", type=Path, default=ROOT / "dist", help="folder for sdist and wheel (default dist)"
+    )
     folder = parser.parse_args().out.resolve()
     folder.mkdir(parents=True, exist_ok=True)
     for old in (*folder.glob("*.whl"), *folder.glob("*.tar.gz")):

@@ -81,7 +81,11 @@ def sweep(design: Design, name: str, values: Sequence[float] | Array | None = No
     for k, value in enumerate(values.tolist()):
         if k >= _ENOUGH and before is not None and not np.isfinite(power[k - _ENOUGH : k]).any():
             break
-        at = design.with_twist(f"linear:{value}") if name == "twist" else CONDITION[name].put(design, value)
+        at = (
+            design.with_twist(f"linear:{value}")
+            if name == "twist"
+            else CONDITION[name].put(design, value)
+        )
         before = solve(at, before, SolverOptions(remedy=False))
         if before.converged:
             power[k] = 1e-3 * before.power.total
@@ -106,7 +110,11 @@ def random_sweep(random: np.random.Generator) -> tuple[dict[str, object], Design
     """A random design of a shipped rotor in flight, and twelve neighbouring places of one of its sliders."""
     while True:
         asked = draw(random, SHIPPED_ROTORS[int(random.integers(len(SHIPPED_ROTORS)))])
-        asked = {name: value for name, value in asked.items() if name not in ("trim", "stand", "preset", "inflow")}
+        asked = {
+            name: value
+            for name, value in asked.items()
+            if name not in ("trim", "stand", "preset", "inflow")
+        }
         design = make_design(**asked)
         if not design.aircraft.isolated and design.condition.stand is None:
             break

@@ -39,15 +39,21 @@ LIMIT = 180.0
 
 def random_line(random: np.random.Generator, commands: tuple[str, ...]) -> list[str]:
     """Arguments of one command."""
-    subparsers = next(a for a in build_parser()._actions if isinstance(a, argparse._SubParsersAction))
+    subparsers = next(
+        a for a in build_parser()._actions if isinstance(a, argparse._SubParsersAction)
+    )
     name = str(random.choice(commands))
-    actions = [a for a in subparsers.choices[name]._actions if a.option_strings and a.dest != "help"]
+    actions = [
+        a for a in subparsers.choices[name]._actions if a.option_strings and a.dest != "help"
+    ]
     line = [name, "--inflow", "drees"] if name != "airfoil" else [name]
     for k in random.permutation(len(actions))[: int(random.integers(0, 6))]:
         action = actions[k]
         line.append(str(random.choice(action.option_strings)))
         if action.nargs != 0 and not (action.nargs == "?" and random.random() < 0.5):
-            likely = PLAUSIBLE.get(action.dest) or tuple(map(str, action.choices or ())) or ("0.3", "2")
+            likely = (
+                PLAUSIBLE.get(action.dest) or tuple(map(str, action.choices or ())) or ("0.3", "2")
+            )
             line.append(str(random.choice(likely if random.random() < 0.75 else ODD)))
     return line
 
@@ -64,7 +70,8 @@ def fault(code: object, out: str, err: str, seconds: float) -> str:
 
 
 @pytest.mark.parametrize(
-    ("count", "commands"), [(20, SHORT), pytest.param(1000, COMMANDS, marks=[pytest.mark.slow, pytest.mark.nightly])]
+    ("count", "commands"),
+    [(20, SHORT), pytest.param(1000, COMMANDS, marks=[pytest.mark.slow, pytest.mark.nightly])],
 )
 def test_no_command_line_ends_badly(
     count: int, commands: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch,

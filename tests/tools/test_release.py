@@ -13,20 +13,31 @@ DONE, CITED = "## [1.2.0] – 2027-01-01\n", "version: 1.2.0\ndate-released: 202
 
 
 def test_a_finished_changelog_has_no_faults():
-    assert version_faults(PROJECT, f"## [Unreleased]\n\n{DONE}- more\n", CITED, {"a": "1.1.0"}) == []
+    assert (
+        version_faults(PROJECT, f"## [Unreleased]\n\n{DONE}- more\n", CITED, {"a": "1.1.0"}) == []
+    )
 
 
 def test_the_citation_has_the_version_of_the_last_release():
     files = ("pyproject.toml", "CHANGELOG.md", "CITATION.cff")
-    project, changelog, citation = ((release.ROOT / name).read_text(encoding="utf-8") for name in files)
-    assert not [fault for fault in version_faults(project, changelog, citation, {}) if "CITATION" in fault]
+    project, changelog, citation = (
+        (release.ROOT / name).read_text(encoding="utf-8") for name in files
+    )
+    assert not [
+        fault for fault in version_faults(project, changelog, citation, {}) if "CITATION" in fault
+    ]
 
 
 @pytest.mark.parametrize(
     ("changelog", "cited", "others", "words"),
     [
         (f"## [Unreleased]\n- more\n\n{DONE}", CITED, {}, "under Unreleased"),
-        ("## [1.1.0] – 2027-01-01\n", CITED.replace("1.2", "1.1"), {}, "is 1.1.0, in pyproject.toml 1.2.0"),
+        (
+            "## [1.1.0] – 2027-01-01\n",
+            CITED.replace("1.2", "1.1"),
+            {},
+            "is 1.1.0, in pyproject.toml 1.2.0",
+        ),
         ("# Changes\n", CITED, {}, "is None"),
         (DONE, CITED, {"rotor/__init__.py": "1.2.0"}, "rotor/__init__.py repeats"),
         (DONE, CITED.replace("2027", "2026"), {}, "has 1.2.0 of 2026-01-01: give"),

@@ -35,13 +35,17 @@ def test_deck_rebuilt_from_the_raw_polars_is_the_shipped_deck(name: str) -> None
     assert found.cl < 1.1e-4, found  # a unit in the last printed decimal, for other arithmetic
     assert found.cd < 0.003, found
     assert_allclose(rebuilt.blocks[2].values, shipped.blocks[2].values, rtol=0, atol=1.1e-4)
-    assert tuple(p.mach for p in polars.polars) == (NATIVE_MACHS if recipe.polars == "trip5" else recipe.machs)
+    assert tuple(p.mach for p in polars.polars) == (
+        NATIVE_MACHS if recipe.polars == "trip5" else recipe.machs
+    )
     for p in polars.polars:
         assert_allclose(p.reynolds or 0.0, recipe.reynolds_per_mach * p.mach, rtol=1e-3)
         assert p.alpha_deg[0] <= max(-8.0, recipe.lowest_alpha_deg)
         assert p.alpha_deg[-1] >= 10.0
         if name in ("sc1095", "sc1094r8", "naca0012", "naca63a015"):
-            assert np.count_nonzero((p.alpha_deg >= -5.0) & (p.alpha_deg <= 15.0)) == 41, f"{name} Mach {p.mach}"
+            assert np.count_nonzero((p.alpha_deg >= -5.0) & (p.alpha_deg <= 15.0)) == 41, (
+                f"{name} Mach {p.mach}"
+            )
 
 
 @pytest.mark.xfoil
@@ -57,7 +61,12 @@ def test_verify_detects_a_change() -> None:
     shipped = read_c81(asset_path("airfoils/sc1095.c81"))
     values = shipped.cl.values.copy()
     values[shipped.cl.alpha_deg == 5.0, 4] += 0.02
-    changed = C81Deck(shipped.title, C81Block(shipped.cl.mach, shipped.cl.alpha_deg, values), shipped.cd, shipped.cm)
+    changed = C81Deck(
+        shipped.title,
+        C81Block(shipped.cl.mach, shipped.cl.alpha_deg, values),
+        shipped.cd,
+        shipped.cm,
+    )
     found = compare_decks(changed, shipped)
     assert found.cl == pytest.approx(0.02)
     assert found.cl_at == "5 deg, Mach 0.4"
@@ -67,12 +76,16 @@ def test_verify_detects_a_change() -> None:
 
 @pytest.mark.slow
 @pytest.mark.xfoil
-@pytest.mark.parametrize("name", [name for name, recipe in RECIPES.items() if recipe.polars == "trip5"])
+@pytest.mark.parametrize(
+    "name", [name for name, recipe in RECIPES.items() if recipe.polars == "trip5"]
+)
 def test_xfoil_reproduces_the_polars(name: str, real_xfoil: None) -> None:
     """Attached flow only: near stall the angles that converge depend on the time a sweep is given."""
     for shipped in read_polars(asset_path(f"airfoils/{name}_trip5.polars.csv")).polars:
         alpha = np.arange(-4.0, 8.25, 0.5)
-        found = run_polar(load_contour(name), XfoilCase(shipped.mach, shipped.reynolds or 0.0, 9.0, TRIP), alpha)
+        found = run_polar(
+            load_contour(name), XfoilCase(shipped.mach, shipped.reynolds or 0.0, 9.0, TRIP), alpha
+        )
         both, mine, theirs = np.intersect1d(found.alpha_deg, shipped.alpha_deg, return_indices=True)
         assert both.size >= alpha.size - 2
         assert_allclose(found.cl[mine], shipped.cl[theirs], atol=0.01)

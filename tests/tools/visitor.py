@@ -37,7 +37,12 @@ class Visitor:
     """One connection, from `open` to `close`."""
 
     def __init__(self, query: str = "", kept: dict[str, str] | None = None, page: str = "") -> None:
-        self._facts: dict[str, Any] = {"dark": False, "query": query, "kept": kept or {}, "page": page}
+        self._facts: dict[str, Any] = {
+            "dark": False,
+            "query": query,
+            "kept": kept or {},
+            "page": page,
+        }
         """What the page answers when it is asked; query: what follows the address, kept: texts the server gave it."""
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None
@@ -62,7 +67,12 @@ class Visitor:
         uri = "ws" + address.removeprefix("http")
         subprotocols = [Subprotocol(wire.SUBPROTOCOL)]
         self._socket = await connect(
-            uri, subprotocols=subprotocols, max_size=None, compression=None, open_timeout=90.0, **options
+            uri,
+            subprotocols=subprotocols,
+            max_size=None,
+            compression=None,
+            open_timeout=90.0,
+            **options,
         )
         self._reading = asyncio.create_task(self._read(self._socket))
         await self.send("ViewerCameraMessage", **_CAMERA)
@@ -109,7 +119,10 @@ class Visitor:
         raise LookupError(f"No widget {label!r} is shown.")
 
     def shows(self, label: str) -> bool:
-        return any(widget.get("label") == label and widget.get("visible", True) for widget in self.widgets.values())
+        return any(
+            widget.get("label") == label and widget.get("visible", True)
+            for widget in self.widgets.values()
+        )
 
     def text(self, part: str) -> str:
         """Text or kind of an element that the page marks with `data-explorer`; empty where there is none."""
@@ -178,7 +191,10 @@ class Visitor:
             case "LocalStorageGetItemRequestMessage":
                 value = json.dumps(self._facts) if message["key"].startswith("facts-") else None
                 await self.send(
-                    "LocalStorageGetItemResponseMessage", value=value, error=None, request_uuid=message["request_uuid"]
+                    "LocalStorageGetItemResponseMessage",
+                    value=value,
+                    error=None,
+                    request_uuid=message["request_uuid"],
                 )
             case "NotificationShowMessage":
                 props = message.get("props", message)

@@ -23,7 +23,9 @@ def decode(frame: bytes) -> list[Message]:
     packed = int.from_bytes(frame[_HEADER : 2 * _HEADER], "little")
     begin = 2 * _HEADER
     try:
-        body = zstandard.ZstdDecompressor().decompress(frame[begin : begin + packed], max_output_size=size)
+        body = zstandard.ZstdDecompressor().decompress(
+            frame[begin : begin + packed], max_output_size=size
+        )
         content = msgspec.msgpack.decode(body)
     except (zstandard.ZstdError, msgspec.DecodeError) as error:
         raise ValueError(f"A frame of {len(frame)} bytes cannot be read: {error}") from error

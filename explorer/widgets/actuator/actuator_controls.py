@@ -20,7 +20,9 @@ from rotor.support.markup import tag
 class ActuatorControls:
     """Widgets, and the charts and texts between them."""
 
-    def __init__(self, gui: viser.GuiApi, moved: Callable[[], None], driven: Callable[[], None]) -> None:
+    def __init__(
+        self, gui: viser.GuiApi, moved: Callable[[], None], driven: Callable[[], None]
+    ) -> None:
         """`moved`: something changed. `driven`: a hand moved a voltage."""
         self._moved, self._driven = moved, driven
         self._placing = threading.RLock()
@@ -45,7 +47,9 @@ class ActuatorControls:
         with gui.add_folder("Twist at n/rev", expand_by_default=False):
             gui.add_html(tag("div.rxd", data_dial=True, data_explorer="dial"))
             text("per_rev")
-            gui.add_html(tag("div.rx.rx-dim.rx-small", validation_words(), data_explorer="unmeasured"))
+            gui.add_html(
+                tag("div.rx.rx-dim.rx-small", validation_words(), data_explorer="unmeasured")
+            )
         with gui.add_folder("Placement and blade", expand_by_default=False):
             form.span("chord", "Chord [c]", (0.0, 0.95), start.chord, 0.05, "chord_range")
             form.menu("blade", "Blade type", BLADES, entry="blade_type")
@@ -54,11 +58,15 @@ class ActuatorControls:
         with gui.add_folder("Mission conditions", expand_by_default=False):
             titles = {name: find_concept(name).title for name in CONCEPTS}
             form.menu("concept", "Concept", titles, entry="actuator_concept")
-            form.span("advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair")
+            form.span(
+                "advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair"
+            )
         with gui.add_folder("Reach and limits", expand_by_default=False):
             text("numbers")
             text("limits")
-        shows = {f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()}
+        shows = {
+            f"actuator.{name}": partial(setattr, place, "content") for name, place in texts.items()
+        }
         self.texts: Mapping[str, Callable[[Any], None]]
         """What shows each text of the rail, and how the widgets look."""
         self.texts = {**shows, "actuator.form": self._arrange}

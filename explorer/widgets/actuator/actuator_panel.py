@@ -4,7 +4,13 @@ import threading
 from dataclasses import replace
 from typing import Any
 
-from explorer.model.actuator_inputs import ActuatorInputs, HandSettings, Outcome, verdict_inputs_of, verdict_tasks
+from explorer.model.actuator_inputs import (
+    ActuatorInputs,
+    HandSettings,
+    Outcome,
+    verdict_inputs_of,
+    verdict_tasks,
+)
 from explorer.picture.lifted_picture import flown_twist, lifted_picture
 from explorer.sharing.share import Address
 from explorer.views.flight import BY_HAND, after_flight
@@ -28,7 +34,10 @@ class ActuatorPanel:
         self.blade = LiftedScene(context.client, context.bridge)
         context.leaving.append(self.blade.stop)
         place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used")
-        self._hand, self._lock = HandSettings(on_stage=place is not None, place=place), threading.Lock()
+        self._hand, self._lock = (
+            HandSettings(on_stage=place is not None, place=place),
+            threading.Lock(),
+        )
         self.lifted = False
         """Whether the blade is wanted outside the rotor."""
         self._opened = False
@@ -44,7 +53,9 @@ class ActuatorPanel:
         self.inputs = self.controls.inputs
 
     def hand(self) -> HandSettings:
-        return replace(self._hand, actuator=self.inputs(), on_board=self._context.layout.mode == "actuate")
+        return replace(
+            self._hand, actuator=self.inputs(), on_board=self._context.layout.mode == "actuate"
+        )
 
     def perform(self, effect: SetHand | SetAddress) -> None:
         """Do what a press said."""
@@ -87,7 +98,9 @@ class ActuatorPanel:
         """Lift one blade out towards the viewer, or let it fly back."""
         self.lifted, self._opened = out, self._opened or out
         if out:
-            self._radius = self._context.inputs().aircraft.rotor_for(self._context.inputs().preset).radius
+            self._radius = (
+                self._context.inputs().aircraft.rotor_for(self._context.inputs().preset).radius
+            )
             self.blade.hold(self._radius)
         else:
             self._release()
@@ -113,9 +126,12 @@ class ActuatorPanel:
         if frame == self._drawn:
             return
         self._drawn = frame
-        still = replace(solution.design, twist=solution.design.jig)  # The same mass and stiffness, at rest.
+        # The same mass and stiffness, at rest.
+        still = replace(solution.design, twist=solution.design.jig)
         alone = self._undriven.solve(still) if inputs.driven and design.elastic else solution
-        picture = lifted_picture(inputs, installed, design, flown_twist(solution, alone, psi), pays=self._pays)
+        picture = lifted_picture(
+            inputs, installed, design, flown_twist(solution, alone, psi), pays=self._pays
+        )
         with self._context.client.atomic():
             self.blade.hold(self._radius)
             self.blade.show(picture)

@@ -10,7 +10,16 @@ from explorer.hosting import viser_compat
 from explorer.hosting.browser import Bridge, call
 from explorer.parts.stage import SceneLabel
 from explorer.picture import lifted_blade as lifted
-from explorer.picture.lifted_picture import ARROW, EDGE, FIBRE, LEAD, LEADER, OVERLAY, LiftedPicture, mixed_colour
+from explorer.picture.lifted_picture import (
+    ARROW,
+    EDGE,
+    FIBRE,
+    LEAD,
+    LEADER,
+    OVERLAY,
+    LiftedPicture,
+    mixed_colour,
+)
 from explorer.picture.picture import rotate
 from explorer.scene.overlays import even_colours
 from rotor.support.arrays import Array
@@ -87,7 +96,11 @@ class LiftedScene:
                 # Never faces without their vertices: of two sizes, the page must not draw a mixture.
                 handle.visible = False
                 handle.vertices, handle.faces = vertices, solid.mesh.faces
-            handle.vertices, handle.color, handle.opacity = vertices, surface.colour, surface.opacity
+            handle.vertices, handle.color, handle.opacity = (
+                vertices,
+                surface.colour,
+                surface.opacity,
+            )
             handle.visible = True
         for name in self._solids.keys() - picture.solids.keys():
             self._solids[name].visible = False
@@ -96,11 +109,19 @@ class LiftedScene:
             handle.visible = len(segments) > 0
             if len(segments):
                 colour = mixed_colour(*FIBRE, picture.lit) if name == "fibres" else _LINES[name][0]
-                handle.points, handle.colors = segments.astype(np.float32), even_colours(colour, len(segments))
+                handle.points, handle.colors = (
+                    segments.astype(np.float32),
+                    even_colours(colour, len(segments)),
+                )
         lit = {name: solid.glow for name, solid in picture.solids.items() if solid.glow is not None}
-        glow = {f"{NODE}/{name}": [css(colour), strength] for name, (colour, strength) in lit.items()}
+        glow = {
+            f"{NODE}/{name}": [css(colour), strength] for name, (colour, strength) in lit.items()
+        }
         call(self._client, "rotorScene.glow", glow)
-        labels = [SceneLabel(text, NODE, np.round(at, 3).tolist(), kind=kind) for kind, text, at in picture.labels]
+        labels = [
+            SceneLabel(text, NODE, np.round(at, 3).tolist(), kind=kind)
+            for kind, text, at in picture.labels
+        ]
         self._bridge.set(lifted_labels=labels)
         self._labels = [(text, at) for _, text, at in picture.labels]
 
@@ -108,7 +129,11 @@ class LiftedScene:
     def labels(self) -> list[tuple[str, Array]]:
         """Words and their places in the world [m], while the blade is held."""
         pose = lifted.lifted_pose(self._radius)
-        return [(text, rotate(pose.wxyz, at) + pose.position) for text, at in self._labels] if self._held else []
+        return (
+            [(text, rotate(pose.wxyz, at) + pose.position) for text, at in self._labels]
+            if self._held
+            else []
+        )
 
     def release(self, radius: float) -> None:
         """Let the blade fly back; then nothing of it is left."""
@@ -132,4 +157,12 @@ class LiftedScene:
     def _move(self, out: bool, radius: float) -> None:
         pose = lifted.lifted_pose(radius)
         held = {"wxyz": pose.wxyz.tolist(), "position": pose.position.tolist()}
-        call(self._client, "rotorScene.lift", NODE, out, 1e3 * FLIGHT_SECONDS, held, lifted.ORIGIN_R * radius)
+        call(
+            self._client,
+            "rotorScene.lift",
+            NODE,
+            out,
+            1e3 * FLIGHT_SECONDS,
+            held,
+            lifted.ORIGIN_R * radius,
+        )

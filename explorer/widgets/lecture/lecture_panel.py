@@ -36,8 +36,14 @@ from rotor.support.markup import tag
 FLIGHTS = {"Hover": 0.0, "0.15": 0.15, "0.24": 0.24, "0.37": 0.37}
 """Advance ratios: hover, minimum power, cruise, high speed."""
 
-_THESIS = Inputs(preset="thesis", law="linear", linear=-16.0, advance_ratio=0.0, **preset_inflow("thesis"))
-_STATED = {"hover optimum, −13.5°": (0.0, -13.5), "hover, −16°": (0.0, -16.0), "from µ 0.18, −8°": (0.18, -8.0)}
+_THESIS = Inputs(
+    preset="thesis", law="linear", linear=-16.0, advance_ratio=0.0, **preset_inflow("thesis")
+)
+_STATED = {
+    "hover optimum, −13.5°": (0.0, -13.5),
+    "hover, −16°": (0.0, -16.0),
+    "from µ 0.18, −8°": (0.18, -8.0),
+}
 """What the source document states (chapter 3): advance ratio, linear twist [°]. It does not say of what length."""
 _SPAN = 1.0 - _THESIS.design().rotor.blade.root_cutout
 DOCUMENT: dict[str, Inputs] = {
@@ -63,9 +69,19 @@ class LecturePanel:
     """The lecture of a session. Buttons act at once; the numbers follow the session."""
 
     def __init__(
-        self, context: TabContext, camera: FittedCamera, screen: SceneViews, now: Callable[[], PageState]
+        self,
+        context: TabContext,
+        camera: FittedCamera,
+        screen: SceneViews,
+        now: Callable[[], PageState],
     ) -> None:
-        self._context, self._camera, self._screen, self._now, gui = context, camera, screen, now, context.gui
+        self._context, self._camera, self._screen, self._now, gui = (
+            context,
+            camera,
+            screen,
+            now,
+            context.gui,
+        )
         self.place: StoryPlace | None = None
         """Where the lecture is; None outside it."""
         self._guesses: dict[int, int] = {}
@@ -82,8 +98,12 @@ class LecturePanel:
         context.waiting.append(self._answers.is_waiting)
         context.leaving.append(self._answers.stop)
         gui.add_html(tag("div.rx.rx-dim", _WORDS))
-        self._begin = gui.add_button("Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture"))
-        self._flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
+        self._begin = gui.add_button(
+            "Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture")
+        )
+        self._flights = gui.add_button_group(
+            "Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights")
+        )
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *CASES), hint=hint("document_case"))
         self._begin.on_click(lambda _: self.toggle())
         self._flights.on_click(lambda event: self._fly(FLIGHTS[event.target.value]))
@@ -98,7 +118,9 @@ class LecturePanel:
         bind("lecture", self.toggle)
         bind("lecture_next", lambda: self.go(1))
         bind("lecture_previous", lambda: self.go(-1))
-        for name, advance_ratio in zip(("hover", "mu_015", "mu_024", "mu_037"), FLIGHTS.values(), strict=True):
+        for name, advance_ratio in zip(
+            ("hover", "mu_015", "mu_024", "mu_037"), FLIGHTS.values(), strict=True
+        ):
             bind(name, partial(self._fly, advance_ratio))
 
     def toggle(self) -> None:
@@ -126,10 +148,15 @@ class LecturePanel:
         self._stand_at(StoryPlace(step, self._guesses.get(step), wanted.control.start))
         self._stage()
         inputs, self._against = self._designs()
-        view, look = view_of(wanted, self._context.display.view), "actuator" if wanted.mode == "actuate" else "3d"
+        view, look = (
+            view_of(wanted, self._context.display.view),
+            "actuator" if wanted.mode == "actuate" else "3d",
+        )
         self._screen.put(ScreenState(inputs, view, self._against, wanted.mode, look, self._hand()))
         if wanted.mode == "explore":
-            self._camera.aim_with(lambda aspect: wanted.shot.fit(self._camera.radius, aspect), eased=True)
+            self._camera.aim_with(
+                lambda aspect: wanted.shot.fit(self._camera.radius, aspect), eased=True
+            )
 
     def follow(self, place: StoryPlace | None) -> None:
         """Show the place of another page, which sets the rest."""
@@ -168,7 +195,9 @@ class LecturePanel:
         if state is None:
             return
         own = state.inputs.own_rotor
-        held = (title for title, case in CASES.items() if replace(case, own_rotor=own) == state.inputs)
+        held = (
+            title for title, case in CASES.items() if replace(case, own_rotor=own) == state.inputs
+        )
         self._case.value = next(held, _NO_CASE)
         if self.place is None:
             return
@@ -212,7 +241,9 @@ class LecturePanel:
         place = self.place
         if place is not None and not self._context.held and self._facts(place.step) is not None:
             step = STEPS[place.step]
-            if place.stop == step.control.start and self._context.inputs() == self._kept(step.begin()):
+            if place.stop == step.control.start and self._context.inputs() == self._kept(
+                step.begin()
+            ):
                 self._move()
         self._show()
 
@@ -220,13 +251,17 @@ class LecturePanel:
         """The design where the control is."""
         if self.place is not None:
             inputs, self._against = self._designs()
-            screen = replace(self._screen.on_screen(), inputs=inputs, against=self._against, hand=self._hand())
+            screen = replace(
+                self._screen.on_screen(), inputs=inputs, against=self._against, hand=self._hand()
+            )
             self._screen.put(screen)
 
     def _hand(self) -> HandSettings:
         """What the control sets of the actuator."""
         facts = None if self.place is None else self._facts(self.place.step)
-        actuator = None if facts is None or self.place is None else facts.stops[self.place.stop].actuator
+        actuator = (
+            None if facts is None or self.place is None else facts.stops[self.place.stop].actuator
+        )
         return HandSettings() if actuator is None else HandSettings(actuator, here=True)
 
     def _designs(self) -> tuple[Inputs, Inputs | None]:
@@ -251,17 +286,28 @@ class LecturePanel:
             self._send()
 
     def _send(self) -> None:
-        place, bridge, units = self.place, self._context.bridge, UNITS[self._context.display.view.units]
+        place, bridge, units = (
+            self.place,
+            self._context.bridge,
+            UNITS[self._context.display.view.units],
+        )
         if place is None:
             bridge.set(lecture=None)
             return
-        step, state, answer = STEPS[place.step], self._state, self._answers.answer(_task(place.step))
+        step, state, answer = (
+            STEPS[place.step],
+            self._state,
+            self._answers.answer(_task(place.step)),
+        )
         facts = answer if isinstance(answer, StepFacts) else None
         guessed = place.guess is not None
         values = dict[str, Figure]()
         if guessed and state is not None and facts is not None:
             own = {**facts.words(units), **words_of(facts.stops[place.stop].numbers, units)}
-            values = {**{name: Figure(words) for name, words in own.items()}, **self._compared(state, units)}
+            values = {
+                **{name: Figure(words) for name, words in own.items()},
+                **self._compared(state, units),
+            }
         none = Figure("–" if guessed else "?")
         shown = [(caption, values.get(name, none)) for name, caption in step.figures]
         bridge.set(

@@ -14,7 +14,15 @@ from explorer.charts.histogram import histogram
 from explorer.charts.svg import chart_box
 from explorer.hosting import browser
 from explorer.model.session_state import SessionState
-from explorer.sharing.presentation import FOLLOW, PRESENT, Point, Presentations, PresentedView, follow_name, new_secret
+from explorer.sharing.presentation import (
+    FOLLOW,
+    PRESENT,
+    Point,
+    Presentations,
+    PresentedView,
+    follow_name,
+    new_secret,
+)
 from explorer.sharing.share import Address
 from explorer.text.glossary import hint
 from explorer.widgets.context import TabContext
@@ -33,7 +41,8 @@ _FOLLOWING = "Following a presentation: the presenter controls this page."
 _PLAYING = "Your turn: move the sliders to the least power. The presenter sees each player's best."
 _AWAY = "The presenter has left: the page is yours. It follows again if they return before you change the design."
 _DUPLICATE = (
-    "Another tab of this browser is presenting; this one follows it. To present here, close that tab and reload."
+    "Another tab of this browser is presenting; this one follows it. "
+    "To present here, close that tab and reload."
 )
 
 
@@ -46,15 +55,26 @@ class PresentationBanner:
     _hold: Callable[[bool], None]
 
     def __init__(
-        self, context: TabContext, presentations: Presentations, address: Address, secret: str = "", page: str = ""
+        self,
+        context: TabContext,
+        presentations: Presentations,
+        address: Address,
+        secret: str = "",
+        page: str = "",
     ) -> None:
         """The page's address says whom it follows; `secret` is what the page kept where it presents.
 
         `page`: of which there is one for each time that a tab is loaded.
         """
-        self._context, self._presentations, self._address, self._page = context, presentations, address, page
+        self._context, self._presentations, self._address, self._page = (
+            context,
+            presentations,
+            address,
+            page,
+        )
         self._secret, self._duplicate = secret[:_LONGEST], False
-        address[PRESENT] = None  # Earlier versions kept the secret there, so it came with every link.
+        # Earlier versions kept the secret there, so it came with every link.
+        address[PRESENT] = None
         self._name = "" if self._secret else (address[FOLLOW] or "")[:_LONGEST]
         if self._secret and not presentations.claim(self._secret, page, self):
             self._name, self._secret, self._duplicate = follow_name(self._secret), "", True
@@ -78,7 +98,13 @@ class PresentationBanner:
         )
         self._leave.on_click(lambda _: self.leave())
 
-    def begin(self, lecture: LecturePanel, screen: SceneViews, hand: HandGame, hold: Callable[[bool], None]) -> None:
+    def begin(
+        self,
+        lecture: LecturePanel,
+        screen: SceneViews,
+        hand: HandGame,
+        hold: Callable[[bool], None],
+    ) -> None:
         """The page stands: follow, or present, if the address says so.
 
         `hold` takes the controls from the user, or gives them back.
@@ -86,7 +112,9 @@ class PresentationBanner:
         self._lecture, self._screen, self._hand, self._hold = lecture, screen, hand, hold
         gui = self._context.gui
         with gui.add_folder("Present to others"):
-            self._present = gui.add_button("Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present"))
+            self._present = gui.add_button(
+                "Present", icon=viser.Icon.PRESENTATION, color="gray", hint=hint("present")
+            )
             gui.add_html(tag("div.rx.rx-dim.rx-small", _WORDS))
         self._present.on_click(lambda _: self.end() if self._secret else self.present())
         self._context.client.camera.on_update(self._looked_round)
@@ -111,7 +139,9 @@ class PresentationBanner:
         self._publish()
         browser.copy_link(self._context.client, self._link)
         self._name_present()
-        self._context.notify("Presenting", "The link for followers is in the clipboard and in the line above.")
+        self._context.notify(
+            "Presenting", "The link for followers is in the clipboard and in the line above."
+        )
 
     def end(self) -> None:
         self._presentations.end(self._secret)
@@ -139,7 +169,12 @@ class PresentationBanner:
         self._hold_still()
         if self._secret and self._results:
             self._announce(*self._results)
-        if state is not None and self._name and self._playing and (standing := self._hand.standing) is not None:
+        if (
+            state is not None
+            and self._name
+            and self._playing
+            and (standing := self._hand.standing) is not None
+        ):
             self._presentations.report(self._name, self._player, standing.best.power.total)
 
     def _end(self) -> None:
@@ -152,7 +187,8 @@ class PresentationBanner:
 
     def _publish(self) -> None:
         self._pending = None
-        with self._publishing:  # Camera and worker come on threads of their own: what was read first goes out first.
+        # Camera and worker come on threads of their own: what was read first goes out first.
+        with self._publishing:
             if not self._secret:
                 return
             # A follower has no search of its own, but sees the designs of the presenter's.
@@ -163,7 +199,9 @@ class PresentationBanner:
     def _announce(self, count: int, results: Sequence[float]) -> None:
         self._results = count, results
         followers = "1 follower" if count == 1 else f"{count} followers"
-        link = tag("a", "copy link", href=self._link, data_copy=True, target="_blank", rel="noopener")
+        link = tag(
+            "a", "copy link", href=self._link, data_copy=True, target="_blank", rel="noopener"
+        )
         chart, standing = Markup(), self._hand.standing
         if results and standing is not None:
             ends = standing.least.power.total, standing.start.power.total
@@ -215,7 +253,8 @@ class PresentationBanner:
             title = "The presentation is over" if shown == "over" else "The presenter is back"
             context.notify(title, "The page is yours.")
             return
-        changes = shown.game != (before.game if before is not None else None)  # A game begins, or is over.
+        # A game begins, or is over.
+        changes = shown.game != (before.game if before is not None else None)
         self._shown = shown
         if self._away or changes:
             self._stay(away=False)
@@ -225,8 +264,12 @@ class PresentationBanner:
             return
         with self._lock:
             screen = shown.screen
-            stood = before is not None and (before.screen.mode, before.screen.look) == (screen.mode, screen.look)
-            put = self._screen.on_screen() if stood else screen  # Until it changes, a follower may look elsewhere.
+            stood = before is not None and (before.screen.mode, before.screen.look) == (
+                screen.mode,
+                screen.look,
+            )
+            # Until it changes, a follower may look elsewhere.
+            put = self._screen.on_screen() if stood else screen
             self._screen.put(replace(screen, mode=put.mode, look=put.look))
             self._lecture.follow(shown.place)
             if shown.camera is not None and shown.camera != self._camera:
@@ -248,7 +291,9 @@ class PresentationBanner:
             self._pending.start()
 
     def _say(self, words: Content, leave: bool = False) -> None:
-        self._banner.content = tag("div.rx.rx-presentation", words, data_explorer="presentation") if words else ""
+        self._banner.content = (
+            tag("div.rx.rx-presentation", words, data_explorer="presentation") if words else ""
+        )
         self._banner.visible, self._leave.visible = bool(words), leave
 
 

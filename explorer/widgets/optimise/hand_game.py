@@ -32,7 +32,11 @@ class HandGame:
     def solutions(self) -> tuple[Solution, ...]:
         """What the game is measured by."""
         one = self.standing
-        return () if one is None else tuple(each for each in (one.least, one.start, one.to_beat) if each)
+        return (
+            ()
+            if one is None
+            else tuple(each for each in (one.least, one.start, one.to_beat) if each)
+        )
 
     def begin(self, game: Game | None) -> None:
         """Play this from its start; None: end."""
@@ -52,7 +56,9 @@ class HandGame:
         if game is None or tried.design != state.inputs.design() or not game.holds(state.inputs):
             return
         designs = (game.least, game.start, game.score or game.start)
-        least, start, to_beat = (by.solve(one) for by, one in zip(self._solved, designs, strict=True))
+        least, start, to_beat = (
+            by.solve(one) for by, one in zip(self._solved, designs, strict=True)
+        )
         if not (least.converged and start.converged and to_beat.converged):
             return
         self._best = min(self._best or start, tried, key=lambda one: one.power.total)

@@ -37,11 +37,18 @@ class MapPanel:
         self._offered: tuple[str, ...] = ()
         self._drawn: object = None
         self._title = gui.add_html("")
-        titles = tuple([rail_name(parameter) for parameter in self._search.request().known_concept().parameters])
+        titles = tuple(
+            [
+                rail_name(parameter)
+                for parameter in self._search.request().known_concept().parameters
+            ]
+        )
         self._x = gui.add_dropdown("Horizontal", titles, hint=hint("map_across"))
         self._y = gui.add_dropdown("Vertical", titles, hint=hint("map_up"))
         entries = "map_draw", "stop"
-        self._buttons = WorkButtons(gui, "Compute map", "Stop", entries, self.begin, lambda: self._work.halt(NAME))
+        self._buttons = WorkButtons(
+            gui, "Compute map", "Stop", entries, self.begin, lambda: self._work.halt(NAME)
+        )
         self._state = gui.add_html("")
         self._picture = gui.add_html("")
         context.bridge.on("map_at", self._take)
@@ -62,7 +69,9 @@ class MapPanel:
         concept = request.known_concept()
         titles = [rail_name(parameter) for parameter in concept.parameters]
         if len(titles) < 2:
-            raise ValueError(f"{concept.title} has one parameter: a map needs two; choose another concept.")
+            raise ValueError(
+                f"{concept.title} has one parameter: a map needs two; choose another concept."
+            )
         axes = self._axes(titles)
         objective = replace(request.wanted(design, self._search.legs), quantity="total")
         values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
@@ -81,7 +90,11 @@ class MapPanel:
         self._title.content = tag("div.rx.rx-dim.rx-small", f"Concept: {concept.title}")
         self._state.content = tag("div.rx.rx-dim.rx-small", self._line(), data_explorer="map-state")
         record = self._work[NAME]
-        done = None if record is None else max([r for r in record.reports if isinstance(r, float)], default=0.0)
+        done = (
+            None
+            if record is None
+            else max([r for r in record.reports if isinstance(r, float)], default=0.0)
+        )
         self._buttons.show(done, record is not None and record.under_way)
         drawn = self.map
         if drawn is None:
@@ -102,7 +115,9 @@ class MapPanel:
     def _take(self, place: MapPress) -> None:
         """The map was clicked: its design there goes onto the sliders."""
         if self.map is not None and not self._context.held:
-            self._context.set_inputs(with_optimum(self._context.inputs(), self.map.at(place.x, place.y)))
+            self._context.set_inputs(
+                with_optimum(self._context.inputs(), self.map.at(place.x, place.y))
+            )
 
     def _axes(self, titles: list[str]) -> tuple[int, int]:
         if self._x.value not in titles or self._y.value not in titles:
@@ -118,13 +133,23 @@ class MapPanel:
         if self._refused or record is None:
             return self._refused or _BEFORE
         levels = [report for report in record.reports if isinstance(report, MapLevel)]
-        line = "No design on this map has a trim." if levels else "Computing …" if record.under_way else "No map"
+        line = (
+            "No design on this map has a trim."
+            if levels
+            else "Computing …"
+            if record.under_way
+            else "No map"
+        )
         if levels:
             grid = np.array(levels[-1].powers, dtype=float)
             conditions = record.task.objective.conditions
             power, values = levels[-1].least
             if power is not None:
-                if self.map is None or self.map.task is not record.task or len(self.map.powers) != len(grid):
+                if (
+                    self.map is None
+                    or self.map.task is not record.task
+                    or len(self.map.powers) != len(grid)
+                ):
                     self.map = PowerMap(record.task, grid, levels[-1].values, (power, values))
                 mu = conditions[0].flight.advance_ratio
                 where = f"at µ {mu:g}" if len(conditions) == 1 else "mean of the legs"

@@ -63,24 +63,34 @@ class OptimisePanel:
         """The game of a run."""
         self._replay: int | None = None
         """Which of them is shown; None: the best."""
-        form = self.form = WidgetForm(gui, lambda name, by_hand: context.wake() if by_hand else None)
+        form = self.form = WidgetForm(
+            gui, lambda name, by_hand: context.wake() if by_hand else None
+        )
         first, where = SearchRequest(), "search_division"
         titles = {name: concept.title for name, concept in CONCEPTS.items()}
         form.menu("concept", "Concept", titles, first.concept, entry="search_concept")
         self._picture = gui.add_html("")
         form.menu("objective", "Objective", OBJECTIVES)
         form.slider("hover_share", Slider("Hover [%]", 0.0, 100.0, 5.0), first.hover_share)
-        form.slider("division", Slider("Break point [r/R]", 0.25, 0.92, 0.01), first.division, entry=where)
+        form.slider(
+            "division", Slider("Break point [r/R]", 0.25, 0.92, 0.01), first.division, entry=where
+        )
         form.slider("first", Slider("Break 1 [r/R]", 0.2, 0.6, 0.01), first.first, entry=where)
         form.slider("second", Slider("Break 2 [r/R]", 0.65, 0.95, 0.01), first.second, entry=where)
         with gui.add_folder("Limits", expand_by_default=False):
             form.box("limit_stall", "Limit stall", False)
-            form.slider("stalled", Slider("Stalled [%]", 0.0, 20.0, 0.5), 5.0, entry="stalled_limit")
+            form.slider(
+                "stalled", Slider("Stalled [%]", 0.0, 20.0, 0.5), 5.0, entry="stalled_limit"
+            )
             form.box("limit_change", "Limit change of twist", False)
-            form.slider("change", Slider("Change at tip [°]", 0.5, 15.0, 0.5), 4.0, entry="change_limit")
+            form.slider(
+                "change", Slider("Change at tip [°]", 0.5, 15.0, 0.5), 4.0, entry="change_limit"
+            )
             form.box("limit_index", "Limit vibration", False)
             form.slider("index", Slider("Index [%]", 0.5, 10.0, 0.1), 3.0, entry="index_limit")
-        self._buttons = WorkButtons(gui, "Optimise", "Stop", ("optimise", "stop"), self.begin, self.halt)
+        self._buttons = WorkButtons(
+            gui, "Optimise", "Stop", ("optimise", "stop"), self.begin, self.halt
+        )
         self._headline = gui.add_html("")
         self._standing = gui.add_html(text.standing(None))
         self._result = gui.add_html("")
@@ -138,7 +148,9 @@ class OptimisePanel:
         if state is None or state.pin is None:
             return baseline_of(design), baseline_title(design)
         a = state.pin.solution.design
-        return replace(design, rotor=a.rotor, twist=a.twist, active_twist=a.active_twist), "A's blade"
+        return replace(
+            design, rotor=a.rotor, twist=a.twist, active_twist=a.active_twist
+        ), "A's blade"
 
     def halt(self) -> None:
         """Stop the search under way, and keep what it found."""
@@ -180,7 +192,12 @@ class OptimisePanel:
     def optimum_of(self, design: Design, concept: str) -> tuple[float, ...] | None:
         """Parameters of the optimum of a concept, if a search from this design has found it."""
         run = self.run
-        if run is None or run.optimum is None or run.optimum.best is None or not run.matches(design):
+        if (
+            run is None
+            or run.optimum is None
+            or run.optimum.best is None
+            or not run.matches(design)
+        ):
             return None
         return run.optimum.best.parameters if run.concept.name == concept else None
 
@@ -219,7 +236,9 @@ class OptimisePanel:
             task = Call(best_linear_twist, (replace(design, twist=_ANY_TWIST),))
         self._best.ask(() if task is None else (task,), _STILL)
         answer = self._best.answer(task)
-        self._ranges.content = twist_ranges(answer, self._context.units) if isinstance(answer, BestTwist) else ""
+        self._ranges.content = (
+            twist_ranges(answer, self._context.units) if isinstance(answer, BestTwist) else ""
+        )
 
     def notice(self, design: Design | None) -> NoticePart | None:
         """The bar over the scene while it shows a search instead of the sliders."""
@@ -230,7 +249,9 @@ class OptimisePanel:
         close = [("apply", "Apply"), ("discard", "Discard")]
         if run.under_way:
             words = " …" if best is None else f": {total_words(best.power, units)}"
-            return NoticePart(f"Searching{words}", [("halt", "Stop"), *(close if best else close[1:])])
+            return NoticePart(
+                f"Searching{words}", [("halt", "Stop"), *(close if best else close[1:])]
+            )
         if len(run.frames) < 2:
             return None
         beat = [] if self._game_of(run) is None else [("beat", "Beat it by hand")]
@@ -240,14 +261,21 @@ class OptimisePanel:
         """The game that the search makes, if it has come to its end."""
         if self._made is None or self._made[0] is not run:
             over = run.optimum is not None and run.optimum.status is SearchStatus.CONVERGED
-            found = game_of(run.search, run.frames[-1].design, self._context.inputs()) if over else None
+            found = (
+                game_of(run.search, run.frames[-1].design, self._context.inputs()) if over else None
+            )
             self._made = run, found
         return self._made[1]
 
     def _beat(self) -> None:
         """A game against what was found, from where the search began."""
         run = self.run
-        if run is not None and not run.under_way and run.frames and (game := self._game_of(run)) is not None:
+        if (
+            run is not None
+            and not run.under_way
+            and run.frames
+            and (game := self._game_of(run)) is not None
+        ):
             self._close(False)
             self._context.layout.show_mode("explore")
             self.hand.begin(game)

@@ -30,21 +30,32 @@ _BEFORE = "Best twist for each leg, and the best fixed blade for all."
 class SchedulePanel:
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
         """Concept, limits and starts are those that the search is asked for; it gets the mission's legs."""
-        self._context, self._work, self._request, gui = context, context.work, search.request, context.gui
+        self._context, self._work, self._request, gui = (
+            context,
+            context.work,
+            search.request,
+            context.gui,
+        )
         search.legs = self.legs
         self._refused = ""
         """Why what was asked for last is no schedule."""
         self._drawn: object = None
         self._concept = gui.add_html("")
-        self._mission = gui.add_text("Legs, µ:hours", mission.MISSION, multiline=True, hint=hint("mission"))
+        self._mission = gui.add_text(
+            "Legs, µ:hours", mission.MISSION, multiline=True, hint=hint("mission")
+        )
         self._mission.on_update(lambda _: context.wake())
         self._read = gui.add_html("")
         entries, halt = ("schedule", "schedule_stop"), partial(context.work.halt, NAME)
-        self._buttons = WorkButtons(gui, "Compute schedule", "Stop schedule", entries, self.begin, halt)
+        self._buttons = WorkButtons(
+            gui, "Compute schedule", "Stop schedule", entries, self.begin, halt
+        )
         self._state = gui.add_html("")
         self._table = gui.add_html("")
         words = hint("schedule_result")
-        self._results = gui.add_button_group("Result", ("Apply fixed", "Save CSV"), visible=False, hint=words)
+        self._results = gui.add_button_group(
+            "Result", ("Apply fixed", "Save CSV"), visible=False, hint=words
+        )
         self._twists, self._savings = PanelChart(gui), PanelChart(gui)
         self._results.on_click(self._result_clicked)
 
@@ -71,7 +82,9 @@ class SchedulePanel:
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
         self._concept.content = tag("div.rx.rx-dim.rx-small", f"Concept: {title}")
-        self._read.content = tag("div.rx.rx-dim.rx-small", self._mission_line(), data_explorer="mission")
+        self._read.content = tag(
+            "div.rx.rx-dim.rx-small", self._mission_line(), data_explorer="mission"
+        )
         record, units = self._work[NAME], self._context.units
         under_way = record is not None and record.under_way
         kind = "running" if under_way else "idle" if record is None else "done"
@@ -79,7 +92,9 @@ class SchedulePanel:
         line = self._refused or _BEFORE
         if record is not None and progress is not None and not self._refused:
             line = record.sentence or record.words(progress.count, f"{progress.count} kept")
-        self._state.content = tag("div.rx.rx-dim", line, data_explorer="schedule-state", data_kind=kind)
+        self._state.content = tag(
+            "div.rx.rx-dim", line, data_explorer="schedule-state", data_kind=kind
+        )
         self._buttons.show(progress and (progress.part_done if under_way else 1.0), under_way)
         if progress is None:
             return
@@ -97,7 +112,9 @@ class SchedulePanel:
             legs = mission.mission_of(self._mission.value)
         except ValueError as error:
             return str(error)
-        return f"{len(legs)} leg{'s' if len(legs) > 1 else ''}, {sum(hours for _, hours in legs):g} h"
+        return (
+            f"{len(legs)} leg{'s' if len(legs) > 1 else ''}, {sum(hours for _, hours in legs):g} h"
+        )
 
     def _result_clicked(self, event: viser.GuiEvent[Any]) -> None:
         record = self._work[NAME]

@@ -53,7 +53,9 @@ class HarmonicInflow(InflowModel):
             k: Array = np.array(self.gains(DiskFlow(*point.tolist())), dtype=np.float64)
             return k * float(point[2])
 
-        slopes: list[Array] = [(of_mean(at + way) - of_mean(at - way)) / (2.0 * step) for way in step * np.eye(3)]
+        slopes: list[Array] = [
+            (of_mean(at + way) - of_mean(at - way)) / (2.0 * step) for way in step * np.eye(3)
+        ]
         return np.stack([of_mean(at), *slopes], axis=1)
 
     def field(self, r: Array, waves: Array, flow: DiskFlow) -> Array:
@@ -75,11 +77,19 @@ class HarmonicTerms(InflowTerms):
     """Harmonics on a disk: columns in U_P, with Prandtl's factors on the section lift, or on the inflow as λ_i/F."""
 
     def __init__(self, model: HarmonicInflow, disk: Disk, losses: Losses) -> None:
-        self._model, self._disk, self._losses, self._over = model, disk, losses, losses.on == "inflow"
+        self._model, self._disk, self._losses, self._over = (
+            model,
+            disk,
+            losses,
+            losses.on == "inflow",
+        )
         self._along: dict[Shape, Array] = {("inflow", "mean"): np.ones_like(disk.r)}
-        self._along |= {("inflow", "along", name): shape for name, shape in model.along(disk.r).items()}
+        self._along |= {
+            ("inflow", "along", name): shape for name, shape in model.along(disk.r).items()
+        }
         self._waves = [
-            (wave, ("inflow", "along", name), f"lambda0 k{j}") for j, (wave, name) in enumerate(model.columns)
+            (wave, ("inflow", "along", name), f"lambda0 k{j}")
+            for j, (wave, name) in enumerate(model.columns)
         ]
         highest = max(harmonic_of(wave) for wave, _ in model.columns)
         self._around = waves_at(1 + 2 * highest, azimuths_of(LOSS_AZIMUTHS))
@@ -87,7 +97,10 @@ class HarmonicTerms(InflowTerms):
         self.names, self.live = tuple(self._along), ((LOSS, "loss"),)
         if self._over:
             self.live = tuple((UP, name) for name in self._along)
-            self.names = (*self._along, *((name, by) for name in self._along for by in ("tilt", "inflow")))
+            self.names = (
+                *self._along,
+                *((name, by) for name in self._along for by in ("tilt", "inflow")),
+            )
 
     def _columns(self, structure: Structure) -> list[tuple[int, Shape, int, int]]:
         harmonics = [(UP, name, wave, structure.quantity(atom)) for wave, name, atom in self._waves]
@@ -117,7 +130,10 @@ class HarmonicTerms(InflowTerms):
         free = factor > SMALLEST_TIP_FACTOR
         over = 1.0 / np.where(free, factor, SMALLEST_TIP_FACTOR)
         by_flow = np.where(free, -slopes * over**2, 0.0)
-        return FlowTerms(atoms, {(UP, name): (over * along, by_flow * along) for name, along in self._along.items()})
+        return FlowTerms(
+            atoms,
+            {(UP, name): (over * along, by_flow * along) for name, along in self._along.items()},
+        )
 
     def factor(self, flow: DiskFlow, mu_z: float, sees_tilt: bool) -> tuple[Array, Array]:
         """F, (elements,), averaged over azimuth (thesis p. 24), and its slopes by (µ_x, µ_z, λ0), (3, elements)."""
@@ -125,7 +141,9 @@ class HarmonicTerms(InflowTerms):
         if not (tip or hub):
             return np.ones_like(disk.r), np.zeros((3, len(disk.r)))
         field = self._model.field(disk.r, self._around, flow)
-        factors = mean_loss_factor(disk.r, mu_z + field[0], field[1:], (spacing * disk.blades, disk.root), tip, hub)
+        factors = mean_loss_factor(
+            disk.r, mu_z + field[0], field[1:], (spacing * disk.blades, disk.root), tip, hub
+        )
         if sees_tilt:
             factors[3] += factors[1]  # λ by µ_z itself.
         return factors[0], factors[2:]

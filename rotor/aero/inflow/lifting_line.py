@@ -24,8 +24,25 @@ from numpy.typing import NDArray
 
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import DiskFlow, InflowModel, InflowTerms, Losses, SectionInterface
-from rotor.aero.lifting_line import LiftingLine, WakeCourse, at_points, influence, mean_influence, shed_correction
-from rotor.aero.section import CHANNELS, FORCES, FZ, NO_INCREMENTS, NO_MOMENT, PAIRS, UP, UT, section
+from rotor.aero.lifting_line import (
+    LiftingLine,
+    WakeCourse,
+    at_points,
+    influence,
+    mean_influence,
+    shed_correction,
+)
+from rotor.aero.section import (
+    CHANNELS,
+    FORCES,
+    FZ,
+    NO_INCREMENTS,
+    NO_MOMENT,
+    PAIRS,
+    UP,
+    UT,
+    section,
+)
 from rotor.design.design import Models
 from rotor.engine.linearise import Nodes
 from rotor.engine.terms import ONE, Shape, Structure
@@ -51,7 +68,9 @@ LINE_PAIRS = (*PAIRS, *((CIRCULATION, channel) for channel in _LIFTED))
 def circulation_gain(u_t: Array) -> tuple[Array, Array]:
     """U_T/max(U_T², 0.01), 0 in reverse flow, and its slope by U_T; shape of u_t."""
     over = 1.0 / np.maximum(u_t, SLOWEST) ** 2
-    return np.maximum(u_t, 0.0) * over, np.where(u_t >= SLOWEST, -over, np.where(u_t > 0.0, over, 0.0))
+    return np.maximum(u_t, 0.0) * over, np.where(
+        u_t >= SLOWEST, -over, np.where(u_t > 0.0, over, 0.0)
+    )
 
 
 def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
@@ -64,7 +83,8 @@ def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array,
     if slopes:
         by_channel = np.zeros((len(_LIFTED), *gain.shape))
         for k, channel in enumerate(_LIFTED):
-            if channel < len(CHANNELS) - 2 or data.lossy:  # Derivatives by F are undefined where it is 1.
+            # Derivatives by F are undefined where it is 1.
+            if channel < len(CHANNELS) - 2 or data.lossy:
                 by_channel[k] = gain * by_held[PAIRS.index((FZ, channel))]
         by_channel[_LIFTED.index(UT)] += by_speed * held[FZ]
         d = np.concatenate([d, by_channel])
@@ -115,13 +135,18 @@ def mean_share(course: DiskFlow) -> float:
 
 @bytes_cache
 @read_only
-def _matrix(line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]) -> NDArray[np.float32]:
+def _matrix(
+    line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...]
+) -> NDArray[np.float32]:
     """From N_b Γ/π to the downwash, (points, points): one for each condition, for all its twists.
 
     half_chord: of unsteady sections over R, (panels,), or empty.
     """
     matrix, share, panel = influence(line, course), math.pi / line.blades, np.arange(line.panels)
-    blocks, scale = matrix.reshape(2 * (line.panels, line.azimuths)), np.float64(share / course.mass_flow)
+    blocks, scale = (
+        matrix.reshape(2 * (line.panels, line.azimuths)),
+        np.float64(share / course.mass_flow),
+    )
     own = scale * blocks[panel, :, panel]
     np.multiply(matrix, scale, out=matrix, casting="same_kind")  # In double precision.
     if half_chord:
@@ -135,7 +160,9 @@ class LiftingLineTerms(InflowTerms):
     interface = _LINE
     names = ("mean inflow",)
 
-    def __init__(self, line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...] = ()) -> None:
+    def __init__(
+        self, line: LiftingLine, course: WakeCourse, half_chord: tuple[float, ...] = ()
+    ) -> None:
         """half_chord: of unsteady sections over R, (panels,), or empty."""
         self.line, self.course, self._half_chord = line, course, half_chord
         self.key = "lifting line", line.panels, line.azimuths
@@ -151,11 +178,16 @@ class LiftingLineTerms(InflowTerms):
 
     def shapes(self) -> dict[Shape, Array]:
         """The mean inflow of the course, (1 − 1/D) λ0, (panels,)."""
-        return {self.names[0]: np.full(self.line.panels, mean_share(self.course) * self.course.lambda0)}
+        return {
+            self.names[0]: np.full(self.line.panels, mean_share(self.course) * self.course.lambda0)
+        }
 
     def nodes(self, tolerance: float, thrust: float) -> Nodes:
         """Circulations and what they do; tolerance: of N_b Γ/π."""
-        matrix, uniform = _matrix(self.line, self.course, self._half_chord), self.course.lambda0 / self.course.mass_flow
+        matrix, uniform = (
+            _matrix(self.line, self.course, self._half_chord),
+            self.course.lambda0 / self.course.mass_flow,
+        )
         return Nodes(UP, CIRCULATION, matrix, tolerance, 3.0 * thrust, uniform)
 
     def off_disk(self, points: Array, nodes: Array | None) -> Array:
@@ -168,7 +200,14 @@ class LiftingLineTerms(InflowTerms):
 
     def axial(self, flow: DiskFlow, u_t: Array) -> tuple[Array, Array]:
         """The matrix of the interface: effect of the load by its circulation and by its thrust, λ0 = C_T/2V."""
-        course = replace(self.course, mu_x=flow.mu_x, mu_z=flow.mu_z, lambda0=flow.lambda0, flap_1c=0.0, flap_1s=0.0)
+        course = replace(
+            self.course,
+            mu_x=flow.mu_x,
+            mu_z=flow.mu_z,
+            lambda0=flow.lambda0,
+            flap_1c=0.0,
+            flap_1s=0.0,
+        )
         matrix = mean_influence(self.line, course) * (math.pi / self.line.blades / course.mass_flow)
         gain, slope = circulation_gain(u_t)
         of_thrust = mean_share(course) * 0.5 / course.speed * np.diff(self.line.edges)

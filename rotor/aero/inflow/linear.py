@@ -49,7 +49,9 @@ class LinearInflow(HarmonicInflow):
     def strengths(self, flow: DiskFlow) -> Array:
         """λ0 k_x and λ0 k_y with their slopes by (µ_x, µ_z, λ0), by hand, (2, 4)."""
         gradients = self.longitudinal(flow), self.lateral(flow)
-        return np.array([(value, *slopes) for value, slopes in (of_mean(k, flow.lambda0) for k in gradients)])
+        return np.array(
+            [(value, *slopes) for value, slopes in (of_mean(k, flow.lambda0) for k in gradients)]
+        )
 
 
 def of_mean(gradient: Gradient, lambda0: float) -> tuple[float, tuple[float, float, float]]:
@@ -99,7 +101,11 @@ def _white_blake(flow: DiskFlow) -> Gradient:
     """√2 sin χ."""
     cube = flow.speed**3
     root = math.sqrt(2.0)
-    return root * flow.mu_x / flow.speed, root * flow.axial**2 / cube, -root * flow.mu_x * flow.axial / cube
+    return (
+        root * flow.mu_x / flow.speed,
+        root * flow.axial**2 / cube,
+        -root * flow.mu_x * flow.axial / cube,
+    )
 
 
 MODELS = (

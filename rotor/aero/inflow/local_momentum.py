@@ -17,7 +17,14 @@ from typing import Any
 import numpy as np
 
 from rotor.aero.disk import Disk
-from rotor.aero.inflow.interface import DiskFlow, FlowTerms, InflowModel, InflowTerms, Losses, SectionInterface
+from rotor.aero.inflow.interface import (
+    DiskFlow,
+    FlowTerms,
+    InflowModel,
+    InflowTerms,
+    Losses,
+    SectionInterface,
+)
 from rotor.aero.inflow.linear import of_mean, scaled_half_skew
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.losses import tip_factor
@@ -83,11 +90,14 @@ def _sector_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Arra
     if not slopes:
         return f, d, s
     rigid = len(data.moment_gain) == 0
-    d[[k for k, (o, channel) in enumerate(PAIRS) if channel == LOSS or (o == M and rigid)]] = 0.0  # Not in use.
+    unused = [k for k, (o, channel) in enumerate(PAIRS) if channel == LOSS or (o == M and rigid)]
+    d[unused] = 0.0
     through = 1.0 / (1.0 - gain * d[_UP_ROW])
     out = np.empty((len(SECTOR_PAIRS), *gain.shape))
     for k, (force, channel) in enumerate(SECTOR_PAIRS):
-        follows = f[FZ] * through if channel == GAIN else gain * through * d[PAIRS.index((FZ, channel))]
+        follows = (
+            f[FZ] * through if channel == GAIN else gain * through * d[PAIRS.index((FZ, channel))]
+        )
         if force == BALANCED:
             out[k] = follows
         elif channel == GAIN:
@@ -101,7 +111,9 @@ def _sector_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Arra
 
 _UP_ROW = PAIRS.index((FZ, UP))
 _FOLLOWED = tuple(channel for force, channel in PAIRS if force == FZ)
-SECTOR_PAIRS = tuple((force, channel) for force in (FZ, FX, FR, M, BALANCED) for channel in (*_FOLLOWED, GAIN))
+SECTOR_PAIRS = tuple(
+    (force, channel) for force in (FZ, FX, FR, M, BALANCED) for channel in (*_FOLLOWED, GAIN)
+)
 """Forces that follow the inflow, and the channels that the inflow follows."""
 
 
@@ -121,7 +133,8 @@ class LocalMomentumInflow(InflowModel):
     name = "local-momentum"
     title = "Local momentum (sectors)"
     explanation = (
-        "Each sector responds to its own load, plus a fore-aft gradient: induced power 17–37 % low above µ 0.3."
+        "Each sector responds to its own load, plus a fore-aft gradient: "
+        "induced power 17–37 % low above µ 0.3."
     )
     pointwise = False
     load_dependent = True

@@ -38,8 +38,13 @@ def figure_5_5() -> Report:
     rows: list[tuple[str | float, ...]] = []
     numbers: dict[str, float] = {}
     # Variants for heat or cut into strips strain as their own kind does.
-    for shown in (shown for shown in PLIES.values() if shown.id not in ("MFC_P1_HT", "PZT5H_strips")):
-        field, (along, across) = shown.field(shown.voltage_range), shown.free_strain(shown.voltage_range)
+    for shown in (
+        shown for shown in PLIES.values() if shown.id not in ("MFC_P1_HT", "PZT5H_strips")
+    ):
+        field, (along, across) = (
+            shown.field(shown.voltage_range),
+            shown.free_strain(shown.voltage_range),
+        )
         label = f"{shown.name} ({'d33' if shown.electrodes == 'interdigitated' else 'd31'})"
         curves.append(curve(label, KV_MM * field, PPM * along))
         rows.append((shown.id, *shown.voltage_range, *PPM * along, *PPM * across))
@@ -50,7 +55,9 @@ def figure_5_5() -> Report:
         tables=[table("strain", ("actuator", "lowest_v", "highest_v", *ends), rows)],
         panels=[panel("", "field [kV/mm]", "free strain along [µε]", tuple(curves))],
         numbers=numbers,
-        each=", ".join(f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items()),
+        each=", ".join(
+            f"{id.replace('_', ' ')} {PPM * value:.0f} µε" for id, value in numbers.items()
+        ),
         ratio=numbers["MFC_P1"] / numbers["MFC_P2"],
     )
 
@@ -89,7 +96,9 @@ def figure_5_10() -> Report:
     for k, (name, (plies, host)) in enumerate(BLADES.items()):
         installed = install(ply, default_placement(plies), host, uh60a_rotor("flight"))
         r = np.linspace(float(installed.r[0]), 1.0, 61)
-        up, down = (np.degrees(installed.change([volts / ply.voltage_swing], r)) for volts in (high, low))
+        up, down = (
+            np.degrees(installed.change([volts / ply.voltage_swing], r)) for volts in (high, low)
+        )
         curves += curve(name, r, up, colour=k), curve("", r, down, "dashed", colour=k)
         rows.append((name, float(up[-1]), float(down[-1])))
         numbers[name] = math.degrees(installed.attainable)
@@ -106,7 +115,9 @@ def table_5_1() -> Report:
     """Properties of actuators."""
     rows = actuator_tables.table_5_1()
     properties = table("properties", rows.columns, rows.rows)
-    return report("table 5.1", tables=[properties], count=len(rows.rows), notes=" ".join(rows.notes))
+    return report(
+        "table 5.1", tables=[properties], count=len(rows.rows), notes=" ".join(rows.notes)
+    )
 
 
 @CachedFunction
@@ -129,7 +140,12 @@ def table_5_2() -> Report:
     place = {column: k for k, column in enumerate(rows.columns)}
     best, gains = rows.rows[0], [_saving(row[place["net kW"]]) for row in rows.rows]
     fitted = next(row for row in rows.rows if row[0].startswith("MFC_P1,") and row[1] == "linear")
-    columns = {"needed": "needed °", "reach": "nominal °", "net_kw": "net kW", "ideal_kw": "ideal kW"}
+    columns = {
+        "needed": "needed °",
+        "reach": "nominal °",
+        "net_kw": "net kW",
+        "ideal_kw": "ideal kW",
+    }
     return report(
         "table 5.2",
         tables=[table("verdicts", rows.columns, rows.rows)],

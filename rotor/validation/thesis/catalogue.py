@@ -7,7 +7,14 @@ from functools import partial
 
 from rotor.design.design import TRIM_AZIMUTHS
 from rotor.support.chart import INK, Axis, Chart, Line, Points
-from rotor.validation.thesis import actuation, disk_figures, implementation, ladder, optimum_twist, twist_effect
+from rotor.validation.thesis import (
+    actuation,
+    disk_figures,
+    implementation,
+    ladder,
+    optimum_twist,
+    twist_effect,
+)
 from rotor.validation.thesis.report import Report, thesis
 from rotor.validation.thesis.runs import CONCEPTS, FLIGHT_LINEAR, VARIANTS, Call, best, searches
 from rotor.validation.trust import TrustRow, TrustSet, description
@@ -41,7 +48,10 @@ _SLOW: dict[str, tuple[Callable[[], Report], Searches]] = {
         number: (partial(optimum_twist.optimum_figure, number), partial(searches, (concept,)))
         for number, (concept, _) in optimum_twist.FIGURES.items()
     },
-    "4.12": (optimum_twist.figure_4_12, lambda: [(optimum_twist.three_segment_rows, ("flight", None))]),
+    "4.12": (
+        optimum_twist.figure_4_12,
+        lambda: [(optimum_twist.three_segment_rows, ("flight", None))],
+    ),
     "4.13": (optimum_twist.figure_4_13, _OF_ALL),
     "table 4.1": (optimum_twist.table_4_1, _OF_ALL),
     "table 5.2": (actuation.table_5_2, lambda: [actuation.COMPARED]),
@@ -53,7 +63,10 @@ _FAST: dict[str, Callable[[], Report]] = {
     **{number: partial(implementation.fit_figure, number) for number in ("3.5", "3.6")},
     **{number: partial(disk_figures.elements_figure, number) for number in ("3.7", "3.8")},
     "3.9": disk_figures.figure_3_9,
-    **{number: partial(implementation.loaded_table, number) for number in ("table 3.1", "table 3.2")},
+    **{
+        number: partial(implementation.loaded_table, number)
+        for number in ("table 3.1", "table 3.2")
+    },
     "tail rotor": implementation.tail_rotor,
     "3.10": implementation.figure_3_10,
     "3.11": twist_effect.figure_3_11,
@@ -71,7 +84,9 @@ _FAST: dict[str, Callable[[], Report]] = {
 DRAWINGS = thesis()["drawings"]
 """Figures of the thesis that show nothing of its model, and so are not rebuilt."""
 ENTRIES = tuple(
-    CatalogueEntry(number, *_SLOW[number]) if number in _SLOW else CatalogueEntry(number, _FAST[number])
+    CatalogueEntry(number, *_SLOW[number])
+    if number in _SLOW
+    else CatalogueEntry(number, _FAST[number])
     for number in thesis()
     if number != "drawings"
 )
@@ -84,8 +99,12 @@ def find_entry(number: str) -> CatalogueEntry:
         if entry.number.lower() == wanted:
             return entry
     if wanted in DRAWINGS:
-        raise ValueError(f"figure {wanted} is a drawing in the thesis ({DRAWINGS[wanted]}): it is not rebuilt")
-    raise ValueError(f"figure {number!r} cannot be rebuilt: choose one of {', '.join(e.number for e in ENTRIES)}")
+        raise ValueError(
+            f"figure {wanted} is a drawing in the thesis ({DRAWINGS[wanted]}): it is not rebuilt"
+        )
+    raise ValueError(
+        f"figure {number!r} cannot be rebuilt: choose one of {', '.join(e.number for e in ENTRIES)}"
+    )
 
 
 def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
@@ -101,14 +120,22 @@ def searches_of(entries: Sequence[CatalogueEntry]) -> list[list[Call]]:
         kind = args[0] if function is best else (function, args)
         groups.setdefault(kind, []).append((function, args))
     first = (actuation.COMPARED, *reversed(VARIANTS))  # The lifting line takes longest.
-    return [groups[one] for one in sorted(groups, key=lambda one: first.index(one) if one in first else len(first))]
+    return [
+        groups[one]
+        for one in sorted(groups, key=lambda one: first.index(one) if one in first else len(first))
+    ]
 
 
 def trust_sets(reports: Iterable[Report]) -> tuple[TrustSet, ...]:
     """What the figures show beyond the thesis: grid, Keys et al., tail rotor; and what became of its statements."""
     reports = list(reports)
     known = {report.number: report for report in reports}
-    return _grid(known), _keys_1987(known["Keys 1987"]), _tail_rotor(known["Tail rotor"]), _statements(reports)
+    return (
+        _grid(known),
+        _keys_1987(known["Keys 1987"]),
+        _tail_rotor(known["Tail rotor"]),
+        _statements(reports),
+    )
 
 
 def _grid(known: dict[str, Report]) -> TrustSet:
@@ -129,7 +156,13 @@ def _grid(known: dict[str, Report]) -> TrustSet:
     error = max(known["3.9"].numbers[f"{preset}_error_at_100"] for preset in presets)
     area = known["2.8"].numbers
     rows += [
-        words.bound("Power at 100 azimuths, µ 0.30, linear inflow", "720 azimuths", error, 1e-5, "test_figure_3_9"),
+        words.bound(
+            "Power at 100 azimuths, µ 0.30, linear inflow",
+            "720 azimuths",
+            error,
+            1e-5,
+            "test_figure_3_9",
+        ),
         words.row(
             f"Power at −8° of twist, linear inflow on {TRIM_AZIMUTHS} azimuths, {speeds}",
             ", ".join(f"{100.0 * error:+.3f}" for error in linear) + " %",
@@ -173,9 +206,14 @@ def _keys_1987(report: Report) -> TrustSet:
             against=f"{100 * published:+.1f} % (Keys et al. 1987, another rotor)",
         )
         for name in ("thesis-wake", "flight")
-        for key, where, published in (("hover", "hover", ladder.HOVER), ("fast", "330 km/h", ladder.FAST))
+        for key, where, published in (
+            ("hover", "hover", ladder.HOVER),
+            ("fast", "330 km/h", ladder.FAST),
+        )
     ]
-    return words.page(f"{rows[2].shown}, {rows[3].shown}", rows, (_chart(report),), text=(report.because,))
+    return words.page(
+        f"{rows[2].shown}, {rows[3].shown}", rows, (_chart(report),), text=(report.because,)
+    )
 
 
 def _tail_rotor(report: Report) -> TrustSet:
@@ -192,7 +230,13 @@ def _statements(reports: Sequence[Report]) -> TrustSet:
         name = checked.title.lower().replace(" ", "_").replace(".", "_")
         test = f"rotor/validation/thesis/test_chapter_{chapter}.py::test_{name}"
         row = words.row(
-            checked.title, checked.verdict.value, 0.0, 0.0, test=test, note=checked.finding, against=checked.statement
+            checked.title,
+            checked.verdict.value,
+            0.0,
+            0.0,
+            test=test,
+            note=checked.finding,
+            against=checked.statement,
         )
         rows.append(replace(row, error=None))
     count = Counter(row.shown for row in rows)
@@ -206,7 +250,12 @@ def _chart(report: Report, place: int = 0) -> Chart:
     """A panel as a chart of the trust page: what the thesis says in ink."""
     panel = report.panels[place]
     series = tuple(
-        replace(series, colour=INK if isinstance(series, Points) or (isinstance(series, Line) and series.dashes) else k)
+        replace(
+            series,
+            colour=INK
+            if isinstance(series, Points) or (isinstance(series, Line) and series.dashes)
+            else k,
+        )
         for k, series in enumerate(panel.series, start=1)
     )
     return replace(panel, title=report.caption, series=series)

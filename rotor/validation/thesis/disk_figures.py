@@ -41,10 +41,15 @@ def figure_2_7() -> Report:
         at_tip = float(lift[-1] / lift.max())
         numbers |= {f"{preset}_share": inner, f"{preset}_tip_share": outer}
         numbers |= {f"{preset}_peak": at_peak, f"{preset}_tip_over_peak": at_tip}
-        rows += [(preset, r, v, f) for r, v, f in zip(disk.r, disk.induced[:, 0], lift, strict=True)]
+        rows += [
+            (preset, r, v, f) for r, v, f in zip(disk.r, disk.induced[:, 0], lift, strict=True)
+        ]
         inflow.append(curve(f"{preset}, {twist}", disk.r, disk.induced[:, 0], colour=k))
         thrust.append(curve(f"{preset}, {twist}", disk.r, lift, colour=k))
-    good = all(numbers[f"{p}_share"] > 0.5 and numbers[f"{p}_tip_over_peak"] < 2 / 3 for p in ("thesis", "flight"))
+    good = all(
+        numbers[f"{p}_share"] > 0.5 and numbers[f"{p}_tip_over_peak"] < 2 / 3
+        for p in ("thesis", "flight")
+    )
     return report(
         "2.7",
         judged(good),
@@ -69,10 +74,13 @@ def figure_2_8() -> Report:
     # One cell is 1/40 of the blade by 1/120 of the turn: the border of the region cuts through about 60 of them.
     good = abs(computed - expected) < 0.1 * expected and abs(top - (disk.r[-1] + mu_x)) < 1e-9
     rows = [
-        (r, math.degrees(psi), disk.u_t[i, 4 * j]) for i, r in enumerate(disk.r) for j, psi in enumerate(disk.psi[::4])
+        (r, math.degrees(psi), disk.u_t[i, 4 * j])
+        for i, r in enumerate(disk.r)
+        for j, psi in enumerate(disk.psi[::4])
     ]
     curves = tuple(
-        curve(f"ψ = {degrees}°", disk.r, disk.u_t[:, degrees * len(disk.psi) // 360]) for degrees in (0, 90, 180, 270)
+        curve(f"ψ = {degrees}°", disk.r, disk.u_t[:, degrees * len(disk.psi) // 360])
+        for degrees in (0, 90, 180, 270)
     )
     return report(
         "2.8",
@@ -96,7 +104,9 @@ def _reverse_area(mu: float, root: float) -> float:
         return 0.0
     edge = math.asin(root / mu)
     span = math.pi - 2.0 * edge
-    return (0.5 * mu**2 * (0.5 * span + 0.5 * math.sin(2.0 * edge)) - 0.5 * root**2 * span) / math.pi
+    return (
+        0.5 * mu**2 * (0.5 * span + 0.5 * math.sin(2.0 * edge)) - 0.5 * root**2 * span
+    ) / math.pi
 
 
 ELEMENTS = (5, 10, 20, 40, 80, 160, 320)
@@ -114,7 +124,10 @@ CASES = (("thesis", "linear:-16"), (FLIGHT_LINEAR, "uh60a"))
 def power_on(name: str, twist: str, mu: float, elements: int, azimuths: int) -> float:
     """Main-rotor power on a grid [kW]."""
     design = variant(name, twist=twist, mu=mu)
-    return solve(with_models(design, elements=elements, azimuths=azimuths)).require().power.main_rotor / 1e3
+    return (
+        solve(with_models(design, elements=elements, azimuths=azimuths)).require().power.main_rotor
+        / 1e3
+    )
 
 
 SPEEDS = (0.1, 0.2, 0.3, 0.35)
@@ -134,7 +147,9 @@ def linear_errors(mu: float) -> tuple[float, float]:
 def line_error(mu: float) -> float:
     """Error of the power of the default model on its panels and azimuths, against twice as many of both [-]."""
     design = make_design(mu=mu)
-    finer = with_models(design, panels=2 * design.models.panels, line_azimuths=2 * design.models.line_azimuths)
+    finer = with_models(
+        design, panels=2 * design.models.panels, line_azimuths=2 * design.models.line_azimuths
+    )
     return solve(design).require().power.main_rotor / solve(finer).require().power.main_rotor - 1.0
 
 
@@ -153,21 +168,36 @@ def figure_3_9() -> Report:
     errors: Curves = {}
     numbers: dict[str, float] = {}
     for name, twist in CASES:
-        *powers[name], finest = [power_on(name, twist, FORWARD, 40, m) for m in (*AZIMUTHS, FINEST_AZIMUTHS)]
+        *powers[name], finest = [
+            power_on(name, twist, FORWARD, 40, m) for m in (*AZIMUTHS, FINEST_AZIMUTHS)
+        ]
         errors[name] = [abs(power / finest - 1.0) for power in powers[name]]
         numbers |= {
             f"{name}_error_at_100": errors[name][AZIMUTHS.index(100)],
             f"{name}_needed": _needed(AZIMUTHS, errors[name]),
             f"{name}_order": -float(
-                np.polyfit(np.log(AZIMUTHS[-4:]), np.log(np.maximum(errors[name][-4:], 1e-12)), 1)[0]
+                np.polyfit(np.log(AZIMUTHS[-4:]), np.log(np.maximum(errors[name][-4:], 1e-12)), 1)[
+                    0
+                ]
             ),
         }
-    worst, needed = (max(numbers[f"{name}_{key}"] for name, _ in CASES) for key in ("error_at_100", "needed"))
+    worst, needed = (
+        max(numbers[f"{name}_{key}"] for name, _ in CASES) for key in ("error_at_100", "needed")
+    )
     return report(
         "3.9",
         judged(worst < CONVERGED_PART and needed >= 100),
-        tables=[table("power_kw", ("azimuths", *powers), zip(AZIMUTHS, *powers.values(), strict=True))],
-        panels=_grid_panels("azimuths", AZIMUTHS, powers, errors, (100, "thesis: 100"), f"{FINEST_AZIMUTHS} azimuths"),
+        tables=[
+            table("power_kw", ("azimuths", *powers), zip(AZIMUTHS, *powers.values(), strict=True))
+        ],
+        panels=_grid_panels(
+            "azimuths",
+            AZIMUTHS,
+            powers,
+            errors,
+            (100, "thesis: 100"),
+            f"{FINEST_AZIMUTHS} azimuths",
+        ),
         numbers=numbers,
         millionths=1e6 * worst,
         fewer="" if needed >= 100 else ", but far fewer suffice for power",
@@ -194,24 +224,41 @@ def elements_figure(number: str) -> Report:
         }
     return report(
         number,
-        tables=[table("power_kw", ("elements", *powers), zip(ELEMENTS, *powers.values(), strict=True))],
-        panels=_grid_panels("elements", ELEMENTS, powers, errors, (40, "40 elements: default"), "the limit"),
+        tables=[
+            table("power_kw", ("elements", *powers), zip(ELEMENTS, *powers.values(), strict=True))
+        ],
+        panels=_grid_panels(
+            "elements", ELEMENTS, powers, errors, (40, "40 elements: default"), "the limit"
+        ),
         numbers=numbers,
     )
 
 
 def _grid_panels(
-    what: str, grid: Sequence[int], powers: Curves, errors: Curves, mark: tuple[int, str], reference: str
+    what: str,
+    grid: Sequence[int],
+    powers: Curves,
+    errors: Curves,
+    mark: tuple[int, str],
+    reference: str,
 ) -> tuple[Chart, ...]:
     """Power and its error over the grid, each with a dashed line at the marked one."""
     panels: list[Chart] = []
-    for label, rows, words in (("power [kW]", powers, mark[1]), (f"relative error to {reference}", errors, "")):
+    for label, rows, words in (
+        ("power [kW]", powers, mark[1]),
+        (f"relative error to {reference}", errors, ""),
+    ):
         curves = [
-            curve(name, grid, np.maximum(row, 1e-9), "both", colour=k) for k, (name, row) in enumerate(rows.items())
+            curve(name, grid, np.maximum(row, 1e-9), "both", colour=k)
+            for k, (name, row) in enumerate(rows.items())
         ]
         values = [value for row in rows.values() for value in np.maximum(row, 1e-9)]
         line = curve(words, (mark[0], mark[0]), (min(values), max(values)), "dashed", colour=7)
-        panels.append(Chart("", Axis(what, log=rows is errors), Axis(label, log=rows is errors), (*curves, line)))
+        panels.append(
+            Chart(
+                "", Axis(what, log=rows is errors), Axis(label, log=rows is errors), (*curves, line)
+            )
+        )
     return tuple(panels)
 
 

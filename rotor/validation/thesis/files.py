@@ -54,7 +54,10 @@ def draw(report: Report, folder: Path) -> None:
         for k in range(count, down * across):
             axes[k // across][k % across].axis("off")
         # Transparent: the page has a dark form.
-        for kind, how in (("svg", {"metadata": {"Date": None}, "transparent": True}), ("png", {"dpi": 130})):
+        for kind, how in (
+            ("svg", {"metadata": {"Date": None}, "transparent": True}),
+            ("png", {"dpi": 130}),
+        ):
             content = io.BytesIO()
             figure.savefig(content, format=kind, **how)
             write_whole(folder / f"{report.stem}.{kind}", content.getvalue())
@@ -84,11 +87,15 @@ def write_csv(path: Path, report: Report, table: ReportTable) -> None:
     """One table with a heading of comments."""
     heading = f"# {report.title}: {report.caption}\n# Made by: python -m rotor reproduce\n"
     # Six significant digits are more than the accuracy of any.
-    rows = ([cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in table.rows)
+    rows = (
+        [cell if isinstance(cell, str) else f"{cell:.6g}" for cell in row] for row in table.rows
+    )
     write_whole(path, csv_text([table.columns, *rows], heading))
 
 
-def write_results(reports: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, whole: bool = True) -> Path:
+def write_results(
+    reports: Sequence[tuple[CatalogueEntry, Report]], folder: Path, *, whole: bool = True
+) -> Path:
     """`results.json`: what the thesis says of each, our numbers and the verdict; of the `whole` thesis `misprints.csv`
     beside it."""
     if whole:
@@ -110,7 +117,9 @@ def _record(chapter: str, report: Report) -> dict[str, Any]:
         "finding": typographic(report.finding),
         "verdict": report.verdict.value,
         "because": typographic(report.because),
-        "numbers": {name: value if math.isfinite(value) else None for name, value in report.numbers.items()},
+        "numbers": {
+            name: value if math.isfinite(value) else None for name, value in report.numbers.items()
+        },
         "tables": [csv_name(report, table) for table in report.tables],
         "pictures": [f"{report.stem}.{end}" for end in ("svg", "png") if report.panels],
     }

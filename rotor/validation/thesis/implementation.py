@@ -14,9 +14,23 @@ from rotor.support.assets import toml_asset
 from rotor.support.chart import Axis, Chart
 from rotor.trim.solve import solve
 from rotor.validation.thesis.ladder import rung_design
-from rotor.validation.thesis.report import Agreement, Report, curve, judged, panel, report, table, thesis
+from rotor.validation.thesis.report import (
+    Agreement,
+    Report,
+    curve,
+    judged,
+    panel,
+    report,
+    table,
+    thesis,
+)
 from rotor.validation.thesis.runs import solve_variant
-from rotor.validation.uh60a import SLOWEST, hover_comparison, model_curve_comparison, model_curve_errors
+from rotor.validation.uh60a import (
+    SLOWEST,
+    hover_comparison,
+    model_curve_comparison,
+    model_curve_errors,
+)
 
 Coefficient = Literal["lift", "drag"]
 RANGES = ((-10.0, 15.0), (-10.0, 18.0))
@@ -53,9 +67,12 @@ def error_figure(number: str) -> Report:
         }
     spread = _spread(which)
     knee = knee_of([(study.order, _rms(study, which)) for study in studies[RANGES[0]]])
-    enough = next(study.order for study in studies[RANGES[0]] if _rms(study, which) < GOOD_MISS * spread)
+    enough = next(
+        study.order for study in studies[RANGES[0]] if _rms(study, which) < GOOD_MISS * spread
+    )
     rows = [
-        (study.order, *(_rms(studies[pair][k], which) for pair in RANGES)) for k, study in enumerate(studies[RANGES[0]])
+        (study.order, *(_rms(studies[pair][k], which) for pair in RANGES))
+        for k, study in enumerate(studies[RANGES[0]])
     ]
     symbol = "Cl" if which == "lift" else "Cd"
     errors_drawn = Chart(
@@ -67,14 +84,21 @@ def error_figure(number: str) -> Report:
             for k, (low, high) in enumerate(RANGES)
         )
         + tuple(
-            curve(f"{words} {order}", (order, order), (min(r[1] for r in rows), max(r[2] for r in rows)), "dashed")
+            curve(
+                f"{words} {order}",
+                (order, order),
+                (min(r[1] for r in rows), max(r[2] for r in rows)),
+                "dashed",
+            )
             for words, order in (("thesis: order", chosen), ("our knee: order", knee))
         ),
     )
     return report(
         number,
         judged(knee == chosen),
-        tables=[table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows)],
+        tables=[
+            table("error", ("order", *(f"rms_{low:g}_{high:g}_deg" for low, high in RANGES)), rows)
+        ],
         panels=[errors_drawn],
         numbers={**numbers, "share_of_spread": numbers["at_-10_15"] / spread, "knee": knee},
         mach=polar.mach,
@@ -112,12 +136,17 @@ def fit_figure(number: str) -> Report:
         number,
         tables=[
             table(
-                "fit", ("alpha_deg", symbol.lower(), f"{symbol.lower()}_fit"), zip(alpha_deg, data, fitted, strict=True)
+                "fit",
+                ("alpha_deg", symbol.lower(), f"{symbol.lower()}_fit"),
+                zip(alpha_deg, data, fitted, strict=True),
             )
         ],
         panels=[
             panel(
-                "", "α [°]", symbol, (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth))
+                "",
+                "α [°]",
+                symbol,
+                (curve("XFOIL", alpha_deg, data, "points"), curve(f"order {order}", fine, smooth)),
             )
         ],
         numbers={
@@ -152,7 +181,11 @@ def loaded_table(number: str) -> Report:
     """The numbers of `table 3.1`, the tail rotor, or of `table 3.2`, the main rotor, beside those that are loaded."""
     data = toml_asset("uh60a.toml")
     main = data["main_rotor"]
-    loaded = data["tail_rotor"] if number == "table 3.1" else {**main, **main["document"], **data["airframe"]}
+    loaded = (
+        data["tail_rotor"]
+        if number == "table 3.1"
+        else {**main, **main["document"], **data["airframe"]}
+    )
     rows = [(key, value, float(loaded[key])) for key, value in thesis()[number]["numbers"].items()]
     worst = max(abs(mine / theirs - 1.0) for _, theirs, mine in rows)
     return report(
@@ -180,9 +213,19 @@ def tail_rotor() -> Report:
         "tail rotor",
         judged(low >= 0.04 and high <= 0.06),
         tables=[table("tail", ("mu", "main_rotor_kw", "tail_rotor_kw", "share_percent"), rows)],
-        panels=[Chart("", Axis("advance ratio µ"), Axis("tail over main rotor [%]", range=(0.0, 12.0)), curves)],
+        panels=[
+            Chart(
+                "",
+                Axis("advance ratio µ"),
+                Axis("tail over main rotor [%]", range=(0.0, 12.0)),
+                curves,
+            )
+        ],
         numbers={"mean": float(np.mean(shares))},
-        shares=", ".join(f"{100 * share:.1f} % at µ {mu:g}" for mu, share in zip(TAIL_SPEEDS, shares, strict=True)),
+        shares=", ".join(
+            f"{100 * share:.1f} % at µ {mu:g}"
+            for mu, share in zip(TAIL_SPEEDS, shares, strict=True)
+        ),
         low=100.0 * low,
         high=100.0 * high,
     )
@@ -196,18 +239,25 @@ TWISTS = {"flight": "uh60a", "thesis": "linear:-16"}
 def figure_3_10() -> Report:
     """Power over advance ratio, with public data of the UH-60A."""
     total = {
-        name: [solve_variant(name, TWISTS[name], mu).require().power.total / 1e3 for mu in SPEEDS] for name in TWISTS
+        name: [solve_variant(name, TWISTS[name], mu).require().power.total / 1e3 for mu in SPEEDS]
+        for name in TWISTS
     }
     computed = {name: model_curve_comparison(name)[2] for name in TWISTS}
     rotor_speeds, theirs, _ = model_curve_comparison("flight")
     hover_ct, hover_cp, hover_computed = hover_comparison()
     error, mean = model_curve_errors()
     thesis_error, thesis_mean = model_curve_errors("thesis")
-    plain, *raised = (solve(rung_design(on, RAISED_MU)).require().power.total for on in ((), ("table",), ("wake",)))
+    plain, *raised = (
+        solve(rung_design(on, RAISED_MU)).require().power.total
+        for on in ((), ("table",), ("wake",))
+    )
     section, line = (power / plain - 1.0 for power in raised)
     hover_ratio = np.array(hover_computed) / np.array(hover_cp)
     bucket = {name: SPEEDS[int(np.argmin(total[name]))] for name in TWISTS}
-    lines = tuple(curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k) for k, name in enumerate(TWISTS))
+    lines = tuple(
+        curve(f"{name}, {TWISTS[name]}", SPEEDS, total[name], colour=k)
+        for k, name in enumerate(TWISTS)
+    )
     main_rotor = panel(
         "7257.5 kg, 1600 m",
         "advance ratio µ",
@@ -218,12 +268,21 @@ def figure_3_10() -> Report:
         ),
     )
     measured = curve("digitised, provenance incomplete", hover_ct, hover_cp, "points", colour=7)
-    hover = panel("hover", "C_T/σ (σ = 0.0826)", "C_P/σ", (curve("flight", hover_ct, hover_computed), measured))
+    hover = panel(
+        "hover",
+        "C_T/σ (σ = 0.0826)",
+        "C_P/σ",
+        (curve("flight", hover_ct, hover_computed), measured),
+    )
     return report(
         "3.10",
         Agreement.INDICATIVE,
         tables=(
-            table("total_kw", ("mu", *TWISTS), zip(SPEEDS, *(total[name] for name in TWISTS), strict=True)),
+            table(
+                "total_kw",
+                ("mu", *TWISTS),
+                zip(SPEEDS, *(total[name] for name in TWISTS), strict=True),
+            ),
             table(
                 "main_rotor_beside_model_kw",
                 ("mu", "public_model_curve", *TWISTS),
@@ -235,7 +294,11 @@ def figure_3_10() -> Report:
                 zip(hover_ct, hover_cp, hover_computed, strict=True),
             ),
         ),
-        panels=(panel("8322.4 kg, sea level", "advance ratio µ", "total power [kW]", lines), main_rotor, hover),
+        panels=(
+            panel("8322.4 kg, sea level", "advance ratio µ", "total power [kW]", lines),
+            main_rotor,
+            hover,
+        ),
         numbers={
             "rms_to_model_curve": error,
             "mean_to_model_curve": mean,

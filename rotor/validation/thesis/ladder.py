@@ -42,9 +42,13 @@ _LOSSES = ("swirl", "radial_friction", "surface_drag", "swept_tip", "download", 
 _LINEAR = find_concept("linear")
 
 
-def rung_design(on: Collection[str], mu: float, twist: str = "linear:-16", inflow: str | None = None) -> Design:
+def rung_design(
+    on: Collection[str], mu: float, twist: str = "linear:-16", inflow: str | None = None
+) -> Design:
     """The UH-60A with these of `RUNGS`: none gives the power of the preset `thesis`, all are the preset `flight`."""
-    thesis, flight = (make_design(preset=preset, twist=twist, mu=mu) for preset in ("thesis", "flight"))
+    thesis, flight = (
+        make_design(preset=preset, twist=twist, mu=mu) for preset in ("thesis", "flight")
+    )
     rotor = flight.rotor if "blade" in on else thesis.rotor
     if ("table" in on) != ("blade" in on):
         rotor = with_airfoils(rotor, ("sc1095" if "table" in on else THESIS_READING.name,), ())
@@ -101,10 +105,14 @@ def linear_optimum(on: tuple[str, ...], mu: float, inflow: str | None) -> Linear
     design = rung_design(on, mu, inflow=inflow)
     optimum = run_search(Search(design, _LINEAR, starts=2))
     if optimum.best is None:
-        raise ValueError(f"no linear twist trims at advance ratio {mu:g} with {design.models.inflow}: leave it out")
+        raise ValueError(
+            f"no linear twist trims at advance ratio {mu:g} with {design.models.inflow}: leave it out"
+        )
     band = (optimum.band[0].low, optimum.band[0].high) if optimum.band else (math.nan, math.nan)
     low, high = map(math.degrees, band)
-    return LinearOptimum(mu, math.degrees(optimum.best.parameters[0]), (low, high), optimum.best.power / 1e3)
+    return LinearOptimum(
+        mu, math.degrees(optimum.best.parameters[0]), (low, high), optimum.best.power / 1e3
+    )
 
 
 @CachedFunction
@@ -112,20 +120,34 @@ def moving_twist(on: tuple[str, ...], speeds: tuple[float, ...], inflow: str | N
     """The best fixed blade, and what moving saves beyond it; ValueError where it does not trim at all speeds."""
     moving = [linear_optimum(on, mu, inflow) for mu in speeds]
     design = rung_design(on, speeds[0], inflow=inflow)
-    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in speeds)
+    conditions = tuple(
+        WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in speeds
+    )
     guess = (math.radians(sum(least.rate_deg for least in moving) / len(moving)),)
-    search = Search(design, _LINEAR, Objective("total", conditions), starts=1, guesses=(guess,), band=False)
+    search = Search(
+        design, _LINEAR, Objective("total", conditions), starts=1, guesses=(guess,), band=False
+    )
     optimum = run_search(search)
     fixed, baseline = optimum.best, optimum.baseline_power
     if fixed is None or baseline is None:
-        raise ValueError(f"no linear twist trims at all of {len(speeds)} advance ratios: leave the fastest out")
+        raise ValueError(
+            f"no linear twist trims at all of {len(speeds)} advance ratios: leave the fastest out"
+        )
     mean = 1e3 * sum(least.power_kw for least in moving) / len(moving)
-    return MovingTwist(math.degrees(fixed.parameters[0]), fixed.power / 1e3, baseline / 1e3, 1.0 - mean / fixed.power)
+    return MovingTwist(
+        math.degrees(fixed.parameters[0]),
+        fixed.power / 1e3,
+        baseline / 1e3,
+        1.0 - mean / fixed.power,
+    )
 
 
 @CachedFunction
 def strong_over_weak(on: tuple[str, ...], kmh: float) -> float:
     """Part by which twist −17.3° needs more main-rotor power than −11.5°."""
     mu = kmh / 3.6 / make_design().rotor.tip_speed
-    strong, weak = (solve(rung_design(on, mu, f"linear:{rate}")).require().power.main_rotor for rate in (STRONG, WEAK))
+    strong, weak = (
+        solve(rung_design(on, mu, f"linear:{rate}")).require().power.main_rotor
+        for rate in (STRONG, WEAK)
+    )
     return strong / weak - 1.0

@@ -65,7 +65,15 @@ def _names() -> dict[str, Any]:
         t = (2.0 * alpha - sum(ends)) / (ends[1] - ends[0])
         return float(np.asarray(chebval(t, series.coef), dtype=np.float64))
 
-    theory: tuple[Callable[..., Any], ...] = (hover_kw, induced_kw, free, glauert_inflow, prandtl, make_design, solve)
+    theory: tuple[Callable[..., Any], ...] = (
+        hover_kw,
+        induced_kw,
+        free,
+        glauert_inflow,
+        prandtl,
+        make_design,
+        solve,
+    )
     helpers = (*theory, polynomial_section, polynomial_table, load_section)
     return {"np": np, "reading": THESIS_READING, **{helper.__name__: helper for helper in helpers}}
 
@@ -76,11 +84,26 @@ def misprint_table() -> ReportTable:
     for misprint in MISPRINTS:
         unit = f" {misprint.unit}" if misprint.unit else ""
         where = ", ".join(
-            filter(None, (misprint.equation, f"p. {misprint.page}" if misprint.page else "", misprint.kind))
+            filter(
+                None,
+                (misprint.equation, f"p. {misprint.page}" if misprint.page else "", misprint.kind),
+            )
         )
         values = (f"{_short(value)}{unit}" for value in shown_values(misprint))
-        rows.append((where, misprint.printed, misprint.corrected, f"{misprint.setting}\n{misprint.showing}", *values))
-    return table("misprints", ("Equation", "As printed", "Corrected, and why", "Python", "Printed", "Corrected"), rows)
+        rows.append(
+            (
+                where,
+                misprint.printed,
+                misprint.corrected,
+                f"{misprint.setting}\n{misprint.showing}",
+                *values,
+            )
+        )
+    return table(
+        "misprints",
+        ("Equation", "As printed", "Corrected, and why", "Python", "Printed", "Corrected"),
+        rows,
+    )
 
 
 def _short(value: float) -> str:

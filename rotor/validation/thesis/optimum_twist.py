@@ -17,7 +17,16 @@ from rotor.support.units import KNOT
 from rotor.trim.solve import solve
 from rotor.validation.thesis import runs
 from rotor.validation.thesis.ladder import RUNGS, moving_twist
-from rotor.validation.thesis.report import Report, by_name, curve, judged, panel, report, table, with_gap
+from rotor.validation.thesis.report import (
+    Report,
+    by_name,
+    curve,
+    judged,
+    panel,
+    report,
+    table,
+    with_gap,
+)
 from rotor.validation.uh60a import HORSEPOWER_KW, SLOWEST, public_data
 
 NAMES = {
@@ -45,9 +54,16 @@ FIGURES: dict[str, tuple[str, tuple[str, ...]]] = {
 def optimum_figure(number: str, speeds: tuple[float, ...] = runs.FULL) -> Report:
     """The optimum of one concept over speed, in both presets; `number` is one of `FIGURES`."""
     concept, shown = FIGURES[number]
-    optima = {name: [runs.best(name, concept, mu, speeds) for mu in speeds] for name in runs.VARIANTS}
+    optima = {
+        name: [runs.best(name, concept, mu, speeds) for mu in speeds] for name in runs.VARIANTS
+    }
     largest = {name: max(optimum.saving for optimum in row) for name, row in optima.items()}
-    widths = [high - low for row in optima.values() for optimum in row for low, high in [_band(optimum, shown[0])]]
+    widths = [
+        high - low
+        for row in optima.values()
+        for optimum in row
+        for low, high in [_band(optimum, shown[0])]
+    ]
     widest = max(width for width in widths if math.isfinite(width))
     settled = all(optimum.converged for row in optima.values() for optimum in row)
     columns = [column for key in shown for column in (key, f"{key}_low", f"{key}_high")]
@@ -79,8 +95,15 @@ def optimum_figure(number: str, speeds: tuple[float, ...] = runs.FULL) -> Report
 def _by_kind(mu: float) -> dict[str, float]:
     """Best linear twist [°] of the flight preset for each power: the abstract minimises induced power."""
     linear, design = find_concept("linear"), runs.variant("flight", mu=mu)
-    optima = {kind: run_search(Search(design, linear, at_condition(design, kind), starts=1)) for kind in POWERS}
-    return {kind: math.degrees(optimum.best.parameters[0]) for kind, optimum in optima.items() if optimum.best}
+    optima = {
+        kind: run_search(Search(design, linear, at_condition(design, kind), starts=1))
+        for kind in POWERS
+    }
+    return {
+        kind: math.degrees(optimum.best.parameters[0])
+        for kind, optimum in optima.items()
+        if optimum.best
+    }
 
 
 def _on_bound(optima: dict[str, list[runs.ConceptOptimum]], shown: Sequence[str]) -> str:
@@ -104,7 +127,10 @@ def _panel(name: str, row: list[runs.ConceptOptimum], shown: Sequence[str]) -> C
         low, high = zip(*(_band(optimum, key) for optimum in row), strict=True)
         curves += with_gap("", speeds, low, "band", upper=high, colour=k)
         curves += with_gap(
-            _word(key) if len(shown) > 1 else "optimum", speeds, [_value(optimum, key) for optimum in row], colour=k
+            _word(key) if len(shown) > 1 else "optimum",
+            speeds,
+            [_value(optimum, key) for optimum in row],
+            colour=k,
         )
     y_label = NAMES[shown[0]] if len(shown) == 1 else "twist rate [°/R]"
     return panel(runs.VARIANT_TITLES[name], "advance ratio µ", y_label, tuple(curves))
@@ -134,7 +160,9 @@ def figure_4_11() -> Report:
     return report(
         "4.11",
         judged(min(abs(plain + 16.0), abs(weighted + 16.0)) < 0.5),
-        tables=[table("twist", ("r", "uh60a_deg", "linear_16_deg"), zip(r, angle, line, strict=True))],
+        tables=[
+            table("twist", ("r", "uh60a_deg", "linear_16_deg"), zip(r, angle, line, strict=True))
+        ],
         panels=[panel("", "r/R", "twist, zero at 0.75 R [°]", curves)],
         numbers={"unweighted": plain, "weighted": weighted},
         unweighted_root_to_tip=(1.0 - r[0]) * plain,
@@ -159,11 +187,15 @@ def three_segment_rows(preset: str, most: int | None) -> tuple[SpeedRow, ...]:
         if 0.0 < mu < SLOWEST or len(rows) == most:
             continue
         design = runs.variant(preset, twist="uh60a", mu=mu, mass=forward["mass_kg"])
-        design = replace(design, condition=replace(design.condition, altitude=forward["altitude_m"]))
+        design = replace(
+            design, condition=replace(design.condition, altitude=forward["altitude_m"])
+        )
         optimum = run_search(Search(design, concept, starts=1, guesses=guess, band=False))
         assert optimum.best is not None, f"{preset}, µ {mu:g}: {optimum.message}"
         guess = (optimum.best.parameters,)
-        flown, moved = (solve(flight).require().power.main_rotor / 1e3 for flight in (design, optimum.design))
+        flown, moved = (
+            solve(flight).require().power.main_rotor / 1e3 for flight in (design, optimum.design)
+        )
         rows.append((mu, HORSEPOWER_KW * horsepower, flown, moved, optimum.best.twist))
     return tuple(rows)
 
@@ -181,7 +213,11 @@ def figure_4_12(most: int | None = None) -> Report:
     return report(
         "4.12",
         tables=[
-            table("main_rotor_kw", ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"), rows)
+            table(
+                "main_rotor_kw",
+                ("mu", "public_model_curve", "built_in_twist", "three_segments", "twist"),
+                rows,
+            )
         ],
         panels=[panel("", "advance ratio µ", "main-rotor power [kW]", curves)],
         numbers={"least_saving": min(savings), "largest_saving": max(savings)},
@@ -192,15 +228,31 @@ def figure_4_12(most: int | None = None) -> Report:
 def figure_4_13(speeds: tuple[float, ...] = runs.FULL) -> Report:
     """All concepts side by side."""
     pairs = product(runs.VARIANTS, runs.CONCEPTS)
-    savings = {(name, concept): [_percent(name, concept, mu, speeds) for mu in speeds] for name, concept in pairs}
+    savings = {
+        (name, concept): [_percent(name, concept, mu, speeds) for mu in speeds]
+        for name, concept in pairs
+    }
     panels: list[Chart] = []
     for name in runs.VARIANTS:
         curves: list[Series] = []
         for k, concept in enumerate(runs.CONCEPTS):
             curves += with_gap(concept, speeds, savings[name, concept], colour=k)
-        panels.append(panel(runs.VARIANT_TITLES[name], "advance ratio µ", "saving of total power [%]", tuple(curves)))
-    gain = {name: max(np.subtract(savings[name, "three"], savings[name, "linear"])) / 100.0 for name in runs.VARIANTS}
-    largest = [(name, *(f"{max(savings[name, concept]):.1f}" for concept in runs.CONCEPTS)) for name in runs.VARIANTS]
+        panels.append(
+            panel(
+                runs.VARIANT_TITLES[name],
+                "advance ratio µ",
+                "saving of total power [%]",
+                tuple(curves),
+            )
+        )
+    gain = {
+        name: max(np.subtract(savings[name, "three"], savings[name, "linear"])) / 100.0
+        for name in runs.VARIANTS
+    }
+    largest = [
+        (name, *(f"{max(savings[name, concept]):.1f}" for concept in runs.CONCEPTS))
+        for name in runs.VARIANTS
+    ]
     heads = ("variant", "concept", *(f"mu_{mu:g}" for mu in speeds))
     return report(
         "4.13",
@@ -210,7 +262,10 @@ def figure_4_13(speeds: tuple[float, ...] = runs.FULL) -> Report:
         ],
         panels=panels,
         numbers={
-            **{f"{name}_{concept}_largest": max(row) / 100.0 for (name, concept), row in savings.items()},
+            **{
+                f"{name}_{concept}_largest": max(row) / 100.0
+                for (name, concept), row in savings.items()
+            },
             **{f"{name}_three_over_linear": float(value) for name, value in gain.items()},
         },
     )
@@ -224,18 +279,26 @@ def table_4_1(speeds: tuple[float, ...] = runs.FULL) -> Report:
     for name in runs.VARIANTS:
         variable = moving_twist(tuple(RUNGS) if name == "flight" else (), speeds, None)
         mean = {
-            concept: sum(runs.comparable_kw(name, concept, mu, speeds) for mu in speeds) / len(speeds)
+            concept: sum(runs.comparable_kw(name, concept, mu, speeds) for mu in speeds)
+            / len(speeds)
             for concept in runs.CONCEPTS
         }
         saving = {concept: 1.0 - power / variable.baseline_kw for concept, power in mean.items()}
-        fixed, moving = 1.0 - variable.fixed_kw / variable.baseline_kw, 1.0 - mean["linear"] / variable.fixed_kw
+        fixed, moving = (
+            1.0 - variable.fixed_kw / variable.baseline_kw,
+            1.0 - mean["linear"] / variable.fixed_kw,
+        )
         shares = (f"{100.0 * part:.2f}" for part in saving.values())
         rows.append((name, *shares, f"{100.0 * fixed:.2f} ({variable.fixed_deg:.1f}°)"))
         numbers |= {f"{name}_fixed": fixed, f"{name}_moving": moving}
         # Beyond one linear twist that moves; kept of the last, the flight preset.
         more = {concept: 1.0 - power / mean["linear"] for concept, power in mean.items()}
     numbers |= {
-        "two": max(more[concept] for concept in more if concept.startswith("two ") and concept != "two airfoils"),
+        "two": max(
+            more[concept]
+            for concept in more
+            if concept.startswith("two ") and concept != "two airfoils"
+        ),
         "three": more["three"],
         "quadratic": more["quadratic"],
         "airfoils": more["two airfoils"] - more["two 50-50"],

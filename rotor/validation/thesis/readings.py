@@ -19,14 +19,25 @@ from rotor.files.make_design import make_design
 from rotor.trim.solve import solve
 from rotor.validation.thesis.report import TOLERANCE
 from rotor.validation.thesis.runs import FIVE_RATES
-from rotor.validation.thesis.twist_effect import DOCUMENT_HOVER, DOCUMENT_STRONG, HIGH, LOW, MEDIUM, by_parabola
+from rotor.validation.thesis.twist_effect import (
+    DOCUMENT_HOVER,
+    DOCUMENT_STRONG,
+    HIGH,
+    LOW,
+    MEDIUM,
+    by_parabola,
+)
 
 RANGES = ((-10.0, 15.0), (-10.0, 18.0), (-10.0, 20.0))
 """Ranges of the fit [deg]. The thesis says only that its polynomials represent stall, too."""
 SECTIONS = (
     *(PolynomialReading("free", 0.3, ends).name for ends in RANGES),
     # The tripped polars end at 18°.
-    *(PolynomialReading("tripped", mach, ends).name for mach in (0.1, 0.3, 0.4) for ends in RANGES[:2]),
+    *(
+        PolynomialReading("tripped", mach, ends).name
+        for mach in (0.1, 0.3, 0.4)
+        for ends in RANGES[:2]
+    ),
     "sc1095",
 )
 """Section names of the readings: polynomials of one Mach number, and the table with Mach number."""
@@ -68,13 +79,18 @@ class Judgement:
     @property
     def holds(self) -> tuple[bool, ...]:
         """Each statement, by the tolerance of all figures."""
-        return tuple((value > TOLERANCE) if k == 1 else (value <= TOLERANCE) for k, value in enumerate(self.excess))
+        return tuple(
+            (value > TOLERANCE) if k == 1 else (value <= TOLERANCE)
+            for k, value in enumerate(self.excess)
+        )
 
 
 def reading_design(section: str, loss_on: LossOn, rate: float, mu: float) -> Design:
     """The `thesis` preset with these section data, Prandtl's factors there, and a linear twist [°/R]."""
     design = make_design(preset="thesis", twist=f"linear:{rate:.12g}", mu=mu)
-    design = with_models(replace(design, rotor=with_airfoils(design.rotor, (section,), ())), loss_on=loss_on)
+    design = with_models(
+        replace(design, rotor=with_airfoils(design.rotor, (section,), ())), loss_on=loss_on
+    )
     if section.startswith(THESIS_NAME):
         return design
     # Equation (3.3) has one lift curve for the whole blade; with Mach number the annulus balance takes its place.
@@ -111,7 +127,11 @@ def judge(section: str, loss_on: LossOn) -> tuple[Judgement, ...]:
             max(cost(-8.0, mu) for mu in MEDIUM if mu > OVERTAKES),
             max(cost(-4.0, mu) for mu in HIGH),
         )
-        met = float(np.interp(0.0, gaps[rises[0] : rises[0] + 2], speeds[rises[0] :][:2])) if rises else float("nan")
+        met = (
+            float(np.interp(0.0, gaps[rises[0] : rises[0] + 2], speeds[rises[0] :][:2]))
+            if rises
+            else float("nan")
+        )
         return Judgement(ThesisReading(section, loss_on, unit, count), best, excess, met)
 
     return tuple(judged(unit, count) for unit, count in product(UNITS, COUNTS))
@@ -129,7 +149,11 @@ def described(section: str) -> str:
 
 def shortfall(judgement: Judgement) -> float:
     """The sum of what the statements that do not hold miss the tolerance by, over power [-]."""
-    return sum(abs(one - TOLERANCE) for one, held in zip(judgement.excess, judgement.holds, strict=True) if not held)
+    return sum(
+        abs(one - TOLERANCE)
+        for one, held in zip(judgement.excess, judgement.holds, strict=True)
+        if not held
+    )
 
 
 def judged_readings() -> list[Judgement]:

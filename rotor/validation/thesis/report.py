@@ -96,7 +96,9 @@ def curve(
     across, up = np.asarray(x, dtype=float), np.asarray(y, dtype=float)
     place = None if colour is None else colour + 1
     if style == "band":
-        return Band(label, across, up, np.asarray(() if upper is None else upper, dtype=float), place)
+        return Band(
+            label, across, up, np.asarray(() if upper is None else upper, dtype=float), place
+        )
     if style == "points":
         return Points(label, across, up, place)
     return Line(label, across, up, place, dashes=style == "dashed", dots=style == "both")
@@ -121,13 +123,19 @@ def with_gap(
     for words, flying in ((label, True), ("", False)):
         keep = [k for k, mu in enumerate(mu) if (mu > 0.0) is flying]
         top = [upper[k] for k in keep] if upper else None
-        parts.append(curve(words, [mu[k] for k in keep], [y[k] for k in keep], style, upper=top, colour=colour))
+        parts.append(
+            curve(
+                words, [mu[k] for k in keep], [y[k] for k in keep], style, upper=top, colour=colour
+            )
+        )
     return parts
 
 
 def table(name: str, columns: Sequence[str], rows: Iterable[Sequence[TableCell]]) -> ReportTable:
     """A table from any rows; numpy numbers become plain ones."""
-    return ReportTable(name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows))
+    return ReportTable(
+        name, tuple(columns), tuple(tuple(_plain(cell) for cell in row) for row in rows)
+    )
 
 
 def thesis() -> dict[str, dict[str, Any]]:
@@ -149,12 +157,22 @@ def report(
     number: as the catalogue has it, for example `3.11`, `table 4.1`, `tail rotor`.
     """
     entry, numbers = thesis()[number], numbers or {}
-    caption, finding, because = (_filled(entry[key], {**numbers, **words}) for key in ("caption", "finding", "because"))
+    caption, finding, because = (
+        _filled(entry[key], {**numbers, **words}) for key in ("caption", "finding", "because")
+    )
     title = entry.get("title")
-    known = f"{title}. Only this caption is known; the numbers of the thesis are not." if title else entry["statement"]
+    known = (
+        f"{title}. Only this caption is known; the numbers of the thesis are not."
+        if title
+        else entry["statement"]
+    )
     return Report(
         number=number.removeprefix("table ").capitalize(),
-        kind="table" if number.startswith("table ") else "figure" if number[0].isdigit() else "claim",
+        kind="table"
+        if number.startswith("table ")
+        else "figure"
+        if number[0].isdigit()
+        else "claim",
         caption=caption,
         statement=known,
         finding=finding,

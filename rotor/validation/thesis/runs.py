@@ -50,7 +50,10 @@ Call = tuple[CachedFunction[..., Any], tuple[Any, ...]]
 
 
 def compute_ahead(
-    groups: Sequence[Sequence[Call]], processes: int, advance: Tell | None = None, stop: Stop | None = None
+    groups: Sequence[Sequence[Call]],
+    processes: int,
+    advance: Tell | None = None,
+    stop: Stop | None = None,
 ) -> bool:
     """Make the calls, each group in one process, one after the other; True when stopped before the end.
 
@@ -62,7 +65,8 @@ def compute_ahead(
     def keep(answered: tuple[Call, Any]) -> None:
         (function, args), answer = answered
         function.known[args] = answer
-        if advance is not None and (function.name, args) not in seen:  # In one process it is known before.
+        # In one process it is known before.
+        if advance is not None and (function.name, args) not in seen:
             seen.add((function.name, args))
             advance(str(args[0]))
 
@@ -98,7 +102,9 @@ _INFLOW = {THESIS_WAKE: "lifting-line", FLIGHT_LINEAR: "pitt-peters"}
 """Inflow model of the variants that do not have their preset's own."""
 
 
-def variant(name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None) -> Design:
+def variant(
+    name: str, *, twist: str | None = None, mu: float = 0.2, mass: float | None = None
+) -> Design:
     """A preset, or a preset with its inflow exchanged; mass [kg]."""
     design = make_design(preset=name.partition("-")[0], twist=twist, mu=mu, mass_kg=mass)
     return with_models(design, inflow=_INFLOW.get(name, design.models.inflow))
@@ -160,7 +166,10 @@ CONCEPTS: dict[str, tuple[str, Concept]] = {
         )
         for d in DIVISIONS
     },
-    "two airfoils": ("two sections, two airfoils, 50 – 50", find_concept("two-segment-two-airfoils", (0.5,))),
+    "two airfoils": (
+        "two sections, two airfoils, 50 – 50",
+        find_concept("two-segment-two-airfoils", (0.5,)),
+    ),
     "three": ("three linear sections", find_concept("three-segment")),
 }
 """The thesis' concepts: title, and the concept."""
@@ -171,7 +180,9 @@ SC1095_DECKS = "two 50-50, SC1095 deck"
 @CachedFunction
 def best(preset: str, concept: str, mu: float, speeds: tuple[float, ...]) -> ConceptOptimum:
     """The optimum of a concept at one of the speeds, started from the slower neighbour's and from the linear one's."""
-    family = find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]
+    family = (
+        find_concept("two-segment", (0.5,)) if concept == SC1095_DECKS else CONCEPTS[concept][1]
+    )
     design = variant(preset, twist=BASELINE, mu=mu)
     if preset == "thesis" and concept in ("two airfoils", SC1095_DECKS):
         # The R8 exists as a deck only; its baseline is then the SC1095 deck, so that sections are compared, not polars,
@@ -185,10 +196,14 @@ def best(preset: str, concept: str, mu: float, speeds: tuple[float, ...]) -> Con
         near.append(best(preset, "linear", mu, speeds).twist)
     guesses = tuple(nearest(family, parse_twist(spec, builtin=design.twist)) for spec in near)
     # Two starts at least: begun right at the optimum, a search sees too little to measure its band.
-    optimum = run_search(Search(design, family, starts=max(2 if place > 0 else 3, len(guesses)), guesses=guesses))
+    optimum = run_search(
+        Search(design, family, starts=max(2 if place > 0 else 3, len(guesses)), guesses=guesses)
+    )
     least, parameters = optimum.best, family.parameters
     assert least is not None, f"{preset}, µ {mu:g}: {optimum.message}"
-    assert optimum.baseline_power is not None, f"{preset}, µ {mu:g}: the baseline blade does not trim"
+    assert optimum.baseline_power is not None, (
+        f"{preset}, µ {mu:g}: the baseline blade does not trim"
+    )
     # A band without width was not found, whatever the search says: no smooth optimum is that sharp.
     bands = {band.parameter: (band.low, band.high) for band in optimum.band if band.high > band.low}
     edges = [bands.get(p.name, (math.nan, math.nan)) for p in parameters]
@@ -197,7 +212,9 @@ def best(preset: str, concept: str, mu: float, speeds: tuple[float, ...]) -> Con
         converged=optimum.status is SearchStatus.CONVERGED,
         names=tuple(p.label for p in parameters),
         values=tuple(p.shown(value) for p, value in zip(parameters, least.parameters, strict=True)),
-        band=tuple((p.shown(low), p.shown(high)) for p, (low, high) in zip(parameters, edges, strict=True)),
+        band=tuple(
+            (p.shown(low), p.shown(high)) for p, (low, high) in zip(parameters, edges, strict=True)
+        ),
         twist=least.twist,
         power_kw=least.power / 1e3,
         baseline_kw=optimum.baseline_power / 1e3,
@@ -213,7 +230,10 @@ def comparable_kw(preset: str, concept: str, mu: float, speeds: tuple[float, ...
     optimum = best(preset, concept, mu, speeds)
     if concept != "two airfoils" or preset != "thesis":
         return optimum.power_kw
-    decks, polynomials = best(preset, SC1095_DECKS, mu, speeds), best(preset, "two 50-50", mu, speeds)
+    decks, polynomials = (
+        best(preset, SC1095_DECKS, mu, speeds),
+        best(preset, "two 50-50", mu, speeds),
+    )
     return polynomials.power_kw * optimum.power_kw / decks.power_kw
 
 
@@ -222,4 +242,9 @@ def searches(concepts: Collection[str]) -> list[Call]:
     wanted = {preset: dict.fromkeys(("linear", *concepts)) for preset in VARIANTS}
     if {"two airfoils", "two 50-50"} <= wanted["thesis"].keys():
         wanted["thesis"][SC1095_DECKS] = None
-    return [(best, (preset, concept, mu, FULL)) for preset in VARIANTS for concept in wanted[preset] for mu in FULL]
+    return [
+        (best, (preset, concept, mu, FULL))
+        for preset in VARIANTS
+        for concept in wanted[preset]
+        for mu in FULL
+    ]

@@ -20,7 +20,11 @@ from explorer.hosting.server_limits import (
 )
 from tests.waited import until
 
-HERE, PROXIED, OPEN = AllowedHosts("127.0.0.1"), AllowedHosts("127.0.0.1", ("rotor.example",)), AllowedHosts("0.0.0.0")
+HERE, PROXIED, OPEN = (
+    AllowedHosts("127.0.0.1"),
+    AllowedHosts("127.0.0.1", ("rotor.example",)),
+    AllowedHosts("0.0.0.0"),
+)
 PORT = "127.0.0.1:8080"
 FOREIGN_PAGES = (
     "http://evil.example",
@@ -36,7 +40,10 @@ class TestAllowedHosts:
     @pytest.mark.parametrize(
         ("hosts", "host", "origin"),
         [
-            *((HERE, name, None) for name in (PORT, "localhost:8080", "LOCALHOST", "[::1]:8080", "localhost.")),
+            *(
+                (HERE, name, None)
+                for name in (PORT, "localhost:8080", "LOCALHOST", "[::1]:8080", "localhost.")
+            ),
             (HERE, PORT, f"http://{PORT}"),
             (PROXIED, "rotor.example", "https://rotor.example"),
             (PROXIED, "rotor.example:443", "https://rotor.example"),
@@ -45,16 +52,27 @@ class TestAllowedHosts:
             (OPEN, "[fe80::1]:8080", None),
         ],
     )
-    def test_own_names_numbers_and_pages_are_accepted(self, hosts: AllowedHosts, host: str, origin: str | None):
+    def test_own_names_numbers_and_pages_are_accepted(
+        self, hosts: AllowedHosts, host: str, origin: str | None
+    ):
         assert hosts.refusal(host, origin) is None
 
     @pytest.mark.parametrize(
         ("hosts", "host", "origin", "said"),
         [
             # DNS rebinding: the attacker's own name, with our address.
-            *((HERE, f"{name}evil.example", None, "does not answer") for name in ("", "127.0.0.1.")),
-            *((HERE, name, None, "does not answer") for name in ("evil.example:8080", "192.168.1.5", "", None)),
-            *((HERE, name, None, "") for name in ("evil.example/@127.0.0.1", "a@127.0.0.1", "127.0.0.1:x", "[::1")),
+            *(
+                (HERE, f"{name}evil.example", None, "does not answer")
+                for name in ("", "127.0.0.1.")
+            ),
+            *(
+                (HERE, name, None, "does not answer")
+                for name in ("evil.example:8080", "192.168.1.5", "", None)
+            ),
+            *(
+                (HERE, name, None, "")
+                for name in ("evil.example/@127.0.0.1", "a@127.0.0.1", "127.0.0.1:x", "[::1")
+            ),
             (HERE, "127.0.0.1?x", None, ""),
             *((HERE, PORT, origin, "may not use") for origin in FOREIGN_PAGES),
             (PROXIED, "rotor.example.evil.example", None, ""),
@@ -88,7 +106,9 @@ class TestRateLimiter:
         assert not limiter.allows(1_000, 0.5)
 
 
-def test_memory_is_returned_once_for_updates_that_follow_each_other(monkeypatch: pytest.MonkeyPatch):
+def test_memory_is_returned_once_for_updates_that_follow_each_other(
+    monkeypatch: pytest.MonkeyPatch,
+):
     returned = list[float]()
     monkeypatch.setattr(server_limits, "_TRIM_AFTER_S", 0.1)
     monkeypatch.setattr(server_limits, "trim_memory", lambda: returned.append(time.monotonic()))
@@ -118,7 +138,9 @@ class TestUploads:
             (("odd.json", -1, 1, 0, ".json"), "parts"),
         ],
     )
-    def test_files_that_are_refused_with_a_sentence(self, sent: tuple[str, int, int, int, str], sentence: str):
+    def test_files_that_are_refused_with_a_sentence(
+        self, sent: tuple[str, int, int, int, str], sentence: str
+    ):
         assert sentence in (refuse_upload(*sent) or "")
 
 

@@ -17,7 +17,14 @@ from msgspec import inspect
 from viser import _messages
 
 from explorer.app import App
-from explorer.hosting.messages import LONGEST_TEXT, PageFacts, Sent, checked_press, message_fault, read_facts
+from explorer.hosting.messages import (
+    LONGEST_TEXT,
+    PageFacts,
+    Sent,
+    checked_press,
+    message_fault,
+    read_facts,
+)
 from explorer.parts.presses import PRESSES
 from explorer.session import Session
 from tests.tools import wire
@@ -69,7 +76,16 @@ def test_no_number_that_is_not_finite_passes(name: str):
     [
         *(
             (text, "")
-            for text in ("", "[", "1", "[1, 2]", "[" * 200, press("x" * 400, 1), press("undo", None, math.nan), 5)
+            for text in (
+                "",
+                "[",
+                "1",
+                "[1, 2]",
+                "[" * 200,
+                press("x" * 400, 1),
+                press("undo", None, math.nan),
+                5,
+            )
         ),
         (press("azimuth", 1e9), "Expected `float` <= 3600.0"),
         (
@@ -139,29 +155,96 @@ def test_what_the_client_sends_passes(kind: str, fields: dict[str, Any]):
     ("kind", "fields", "field", "said"),
     [
         ("GuiUpdateMessage", edit(1.0, [1]), "uuid is [1]", "Expected `str`"),
-        ("FileTransferStartUpload", {**UPLOAD, "source_component_uuid": [1]}, "source_component_uuid is [1]", "`str`"),
+        (
+            "FileTransferStartUpload",
+            {**UPLOAD, "source_component_uuid": [1]},
+            "source_component_uuid is [1]",
+            "`str`",
+        ),
         ("ViewerCameraMessage", {**_CAMERA, "position": ()}, "position is []", "length 3"),
-        ("ViewerCameraMessage", {**_CAMERA, "wxyz": (1.0, 0.0, 0.0, math.nan)}, "wxyz is [1.0, 0.0, 0.0, nan]", "[3]"),
-        ("ViewerCameraMessage", {**_CAMERA, "image_width": -1}, "image_width is -1", "Expected `int` >= 1"),
-        ("GuiUpdateMessage", edit([math.nan]), "updates is {'value': [nan]}", "at updates.value[0]"),
-        ("GuiUpdateMessage", edit("x" * (LONGEST_TEXT + 1)), "updates is 20011 bytes", "length <= 20000"),
+        (
+            "ViewerCameraMessage",
+            {**_CAMERA, "wxyz": (1.0, 0.0, 0.0, math.nan)},
+            "wxyz is [1.0, 0.0, 0.0, nan]",
+            "[3]",
+        ),
+        (
+            "ViewerCameraMessage",
+            {**_CAMERA, "image_width": -1},
+            "image_width is -1",
+            "Expected `int` >= 1",
+        ),
+        (
+            "GuiUpdateMessage",
+            edit([math.nan]),
+            "updates is {'value': [nan]}",
+            "at updates.value[0]",
+        ),
+        (
+            "GuiUpdateMessage",
+            edit("x" * (LONGEST_TEXT + 1)),
+            "updates is 20011 bytes",
+            "length <= 20000",
+        ),
         ("GuiUpdateMessage", edit([0.0] * 20_000), "bytes", "length <= 1000"),
-        ("GuiUpdateMessage", edit([[[[[[[1]]]]]]]), "[[[[[[[1]]]]]]]", "Expected `float`, got `array`"),
-        ("GuiUpdateMessage", {"uuid": "a", "updates": {"max": 1.0}}, "{'max': 1.0}", "unknown field `max`"),
+        (
+            "GuiUpdateMessage",
+            edit([[[[[[[1]]]]]]]),
+            "[[[[[[[1]]]]]]]",
+            "Expected `float`, got `array`",
+        ),
+        (
+            "GuiUpdateMessage",
+            {"uuid": "a", "updates": {"max": 1.0}},
+            "{'max': 1.0}",
+            "unknown field `max`",
+        ),
         ("GuiUpdateMessage", edit(1.0, "x" * 1000), "uuid is 1003 bytes", "length <= 300"),
-        ("FileTransferPart", {**PART, "content": "text"}, "content is 'text'", "Expected `bytes`, got `str`"),
+        (
+            "FileTransferPart",
+            {**PART, "content": "text"},
+            "content is 'text'",
+            "Expected `bytes`, got `str`",
+        ),
         ("ScenePointerMessage", {**CLICK, "screen_pos": []}, "screen_pos is []", "length >= 1"),
         # Each value fits, and they do not fit together.
-        ("ScenePointerMessage", {**CLICK, "event_type": "rect-select"}, "'rect-select'", "expected one of click"),
-        ("ScenePointerMessage", {**CLICK, "ray_origin": None}, "ray_origin is None", "Expected `array`"),
-        ("ScenePointerMessage", {**CLICK, "ray_direction": [0, 0, 0]}, "ray_direction", "unit vector"),
+        (
+            "ScenePointerMessage",
+            {**CLICK, "event_type": "rect-select"},
+            "'rect-select'",
+            "expected one of click",
+        ),
+        (
+            "ScenePointerMessage",
+            {**CLICK, "ray_origin": None},
+            "ray_origin is None",
+            "Expected `array`",
+        ),
+        (
+            "ScenePointerMessage",
+            {**CLICK, "ray_direction": [0, 0, 0]},
+            "ray_direction",
+            "unit vector",
+        ),
         ("ViewerCameraMessage", {**_CAMERA, "image_height": 0}, "image_height is 0", ">= 1"),
-        ("ViewerCameraMessage", {**_CAMERA, "image_height": 10**14}, f"image_height is {10**14}", "<= 32768"),
-        ("ViewerCameraMessage", {**_CAMERA, "image_width": 1}, "a canvas of 1 × 940", "ratio of 32"),
+        (
+            "ViewerCameraMessage",
+            {**_CAMERA, "image_height": 10**14},
+            f"image_height is {10**14}",
+            "<= 32768",
+        ),
+        (
+            "ViewerCameraMessage",
+            {**_CAMERA, "image_width": 1},
+            "a canvas of 1 × 940",
+            "ratio of 32",
+        ),
         ("FileTransferStartUpload", {**UPLOAD, "part_count": 0}, "9 bytes in 0 parts", "parts"),
     ],
 )
-def test_what_no_client_of_ours_sends_is_named(kind: str, fields: dict[str, Any], field: str, said: str):
+def test_what_no_client_of_ours_sends_is_named(
+    kind: str, fields: dict[str, Any], field: str, said: str
+):
     sentence = message_fault(wire.encode(kind, **fields))
     assert sentence.startswith(f"{kind}: ")
     assert field in sentence
@@ -192,16 +275,22 @@ def test_the_messages_are_those_of_viser():
     for name, kind in kinds.items():
         theirs = dataclasses.fields(getattr(_messages, name))
         assert kind.__struct_fields__ == tuple(field.name for field in theirs)
-        assert len(kind.__struct_defaults__) == sum(field.default is not dataclasses.MISSING for field in theirs)
+        assert len(kind.__struct_defaults__) == sum(
+            field.default is not dataclasses.MISSING for field in theirs
+        )
     package = Path(_messages.__file__).parent
-    handled = "".join((package / f"{file}.py").read_text("utf-8") for file in ("_gui_api", "_scene_api", "_viser"))
+    handled = "".join(
+        (package / f"{file}.py").read_text("utf-8") for file in ("_gui_api", "_scene_api", "_viser")
+    )
     named = set(re.findall(r"register_(?:owner_scoped_)?handler\(\s*_messages\.(\w+)", handled))
     # Of held buttons, forms, handles and nodes to be clicked our page has none; its share button is hidden.
     never = re.compile(r"Gui(ButtonHold|Form)|SceneNodeClick|TransformControls|ShareUrl")
     assert [name for name in named - kinds.keys() if not never.match(name)] == []
 
 
-@pytest.mark.parametrize("text", ["", "[1]", "{", '{"query": 5}', '{"kept": {"d": 1}}', json.dumps({"page": "x" * 41})])
+@pytest.mark.parametrize(
+    "text", ["", "[1]", "{", '{"query": 5}', '{"kept": {"d": 1}}', json.dumps({"page": "x" * 41})]
+)
 def test_facts_that_no_page_of_ours_tells_are_none(text: str, caplog: pytest.LogCaptureFixture):
     with caplog.at_level(logging.WARNING):
         assert read_facts(text) == PageFacts(query=None)
@@ -249,31 +338,46 @@ def test_thousands_of_hostile_messages_leave_the_page_as_it_was(caplog: pytest.L
         power = visitor.text("total-power")
         # These once gave tracebacks: values that fit one by one, and a file for a menu, whose value it became.
         await visitor.press("pull", 0.3)
-        for wrong in ({"event_type": "rect-select"}, {"ray_origin": None}, {"ray_direction": (0, 0, 0)}):
+        for wrong in (
+            {"event_type": "rect-select"},
+            {"ray_origin": None},
+            {"ray_direction": (0, 0, 0)},
+        ):
             await visitor.send("ScenePointerMessage", **{**CLICK, **wrong})
         for size in (0, 10**14):
             await visitor.send("ViewerCameraMessage", **{**_CAMERA, "image_height": size})
         menu = next(uuid for uuid, widget in visitor.widgets.items() if widget.get("options"))
         await visitor.send("FileTransferStartUpload", **{**UPLOAD, "source_component_uuid": menu})
-        await visitor.send("FileTransferPart", **{**PART, "source_component_uuid": menu, "content": b"x" * 9})
+        await visitor.send(
+            "FileTransferPart", **{**PART, "source_component_uuid": menu, "content": b"x" * 9}
+        )
         await visitor.send("GuiUpdateMessage", **edit(1.0, [1]))
         await visitor.send("FileTransferStartUpload", **{**UPLOAD, "source_component_uuid": [1]})
         await visitor.send("ViewerCameraMessage", **{**_CAMERA, "position": ()})
-        uuid = next(uuid for uuid, widget in visitor.widgets.items() if widget.get("label") == BRIDGE)
+        uuid = next(
+            uuid for uuid, widget in visitor.widgets.items() if widget.get("label") == BRIDGE
+        )
         for k in range(1200):  # In all less than a page may send at once.
             name, value = chance.choice([*names, "constructor", 7]), chance.choice(HOSTILE)
-            await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": press(name, value, k)})
-            if k % 4 == 0:  # Fields that fit one by one, seldom together. No blade and no command: those would act.
+            await visitor.send(
+                "GuiUpdateMessage", uuid=uuid, updates={"value": press(name, value, k)}
+            )
+            # Fields that fit one by one, seldom together. No blade and no command: those would act.
+            if k % 4 == 0:
                 kind, ids = chance.choice(get_args(Sent)), list(visitor.widgets)
                 if kind.__name__ not in ("GuiUpdateMessage", "CommandTriggerMessage"):
-                    fields = fitting(inspect.type_info(kind), ["", "a.json", "/rotor/nowhere", *ids], chance)
+                    fields = fitting(
+                        inspect.type_info(kind), ["", "a.json", "/rotor/nowhere", *ids], chance
+                    )
                     await visitor.send(kind.__name__, **fields)
             if k % 10 == 0:
                 field, bad = chance.choice(FLOATS), chance.choice([math.nan, math.inf])
                 value = [bad] * len(field[1]) if isinstance(field[1], tuple) else bad
                 await visitor.send("ViewerCameraMessage", **{**_CAMERA, field[0]: value})
         await visitor.idle()
-        await visitor.send("GuiUpdateMessage", uuid=uuid, updates={"value": press("azimuth", 65.0, 9999)})
+        await visitor.send(
+            "GuiUpdateMessage", uuid=uuid, updates={"value": press("azimuth", 65.0, 9999)}
+        )
         await visitor.until(lambda: visitor.frame["turn"]["psi"] == 65.0)
         await visitor.close()
         return power, visitor.text("total-power")
@@ -307,7 +411,9 @@ def test_a_visitor_that_cannot_read_a_message_ends_the_wait():
     ran(visit)
 
 
-def test_a_session_that_cannot_be_made_says_so(caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch):
+def test_a_session_that_cannot_be_made_says_so(
+    caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+):
     """It was once told as a server that is busy."""
 
     def fail(session: Session, *_: Any) -> None:
@@ -319,7 +425,9 @@ def test_a_session_that_cannot_be_made_says_so(caplog: pytest.LogCaptureFixture,
     async def visit() -> str:
         visitor = Visitor()
         await visitor.open(app.address)
-        await visitor.until(lambda: any("rx-lobby" in str(one.get("content")) for one in visitor.widgets.values()))
+        await visitor.until(
+            lambda: any("rx-lobby" in str(one.get("content")) for one in visitor.widgets.values())
+        )
         await visitor.close()
         return " ".join(str(one.get("content")) for one in visitor.widgets.values())
 

@@ -50,7 +50,10 @@ async def handshake(app: App, **headers: str) -> int:
     origin: Any = headers.pop("Origin", None)
     try:
         async with connect(
-            uri, subprotocols=[Subprotocol(wire.SUBPROTOCOL)], origin=origin, additional_headers=headers
+            uri,
+            subprotocols=[Subprotocol(wire.SUBPROTOCOL)],
+            origin=origin,
+            additional_headers=headers,
         ):
             return 101
     except InvalidStatus as refused:
@@ -61,7 +64,9 @@ def fetch(address: str, **headers: str) -> tuple[int, bytes, dict[str, str]]:
     """Status, body and headers of a plain request."""
     named = {name.replace("_", "-"): value for name, value in headers.items()}
     try:
-        with urllib.request.urlopen(urllib.request.Request(address, headers=named), timeout=60) as answer:
+        with urllib.request.urlopen(
+            urllib.request.Request(address, headers=named), timeout=60
+        ) as answer:
             return answer.status, answer.read(), dict(answer.headers)
     except urllib.error.HTTPError as error:
         with error:
@@ -70,9 +75,20 @@ def fetch(address: str, **headers: str) -> tuple[int, bytes, dict[str, str]]:
 
 def test_the_veil_comes_before_the_script_and_the_script_before_the_root():
     html = with_loading_screen(CLIENT).html.decode()
-    parts = ("<title>Rotor explorer</title>", "</head>", 'id="rx-veil"', "data-p=x>go()", 'id="root"')
+    parts = (
+        "<title>Rotor explorer</title>",
+        "</head>",
+        'id="rx-veil"',
+        "data-p=x>go()",
+        'id="root"',
+    )
     assert [html.index(part) for part in parts] == sorted(html.index(part) for part in parts)
-    assert html.count("<body>") == html.count("</head>") == html.count("initial-scale=1, minimum-scale=1") == 1
+    assert (
+        html.count("<body>")
+        == html.count("</head>")
+        == html.count("initial-scale=1, minimum-scale=1")
+        == 1
+    )
 
 
 @pytest.mark.parametrize(
@@ -113,7 +129,9 @@ class TestFirstAnswer:
     """The loading screen has the number that the page then shows; a bad address has none, and asks nothing twice."""
 
     def words(self, app: App, query: str) -> list[str]:
-        return until(lambda: fetch(f"{app.address}/first-answer{query}")[1].decode().strip().splitlines())
+        return until(
+            lambda: fetch(f"{app.address}/first-answer{query}")[1].decode().strip().splitlines()
+        )
 
     def test_it_is_the_power_of_the_design_of_the_address(self, app: App):
         power, design, flight = self.words(app, "?d=1;linear:-12;mu=0.33")
@@ -123,7 +141,9 @@ class TestFirstAnswer:
 
     def test_another_address_waits_its_turn_and_a_bad_one_has_no_words(self):
         pool, begun, go = UpdatePool(1), threading.Event(), threading.Event()
-        NewestWins(lambda: begun.set() or iter([0.0] if go.wait(60.0) else []), lambda _: None, pool).wake()
+        NewestWins(
+            lambda: begun.set() or iter([0.0] if go.wait(60.0) else []), lambda _: None, pool
+        ).wake()
         assert begun.wait(60.0)
         first = FirstAnswers(lambda: OPENING, pool)
 
@@ -136,7 +156,11 @@ class TestFirstAnswer:
         assert not first._known
         go.set()
         assert "kW" in answered("d=1;linear:-8")
-        for query in ("d=nonsense", "d=1;linear:-12;mu=0.44;mass=11000;altitude=4000", "follow=somebody"):
+        for query in (
+            "d=nonsense",
+            "d=1;linear:-12;mu=0.44;mass=11000;altitude=4000",
+            "follow=somebody",
+        ):
             assert answered(query) == ""
 
 
@@ -152,21 +176,45 @@ UPGRADE = b"Upgrade: websocket\r\n"
         (b"POST / HTTP/1.1", OWN, 405, b"only GET and HEAD"),
         (b"OPTIONS / HTTP/1.1", OWN, 405, b"Allow: GET, HEAD"),
         (b"GET / HTTP/1.0", OWN, 505, b"only HTTP/1.1"),
-        (b"GET / HTTP/1.1", OWN + b"".join(b"A%d: b\r\n" % k for k in range(300)), 431, b"too many HTTP headers"),
+        (
+            b"GET / HTTP/1.1",
+            OWN + b"".join(b"A%d: b\r\n" % k for k in range(300)),
+            431,
+            b"too many HTTP headers",
+        ),
         (b"GET / HTTP/1.1", OWN + b"Transfer-Encoding: chunked\r\n", 400, b"cannot be read"),
-        (b"GET / HTTP/1.1", OWN + b"Expect: 100-continue\r\nContent-Length: 5\r\n", 400, b"cannot be read"),
+        (
+            b"GET / HTTP/1.1",
+            OWN + b"Expect: 100-continue\r\nContent-Length: 5\r\n",
+            400,
+            b"cannot be read",
+        ),
         (b"GET / HTTP/1.1\nHost: 127.0.0.1\n", OWN, 400, b"end with CR LF"),
         (b"nonsense", OWN, 400, b"cannot be read"),
         (b"GET / HTTP/1.1", b"Host: caf\xc3\xa9.example\r\n", 403, b"--allow-host"),
         (b"GET / HTTP/1.1", OWN + 2 * UPGRADE, 400, b"Upgrade"),
-        (b"GET /first-answer?d=1;linear:-8 HTTP/1.1", OWN + b"Sec-Fetch-Site: cross-site\r\n", 403, b"other sites"),
-        (b"GET /first-answer?d=1;linear:-8 HTTP/1.1", OWN + b"Sec-Fetch-Site: same-origin\r\n", 200, b""),
+        (
+            b"GET /first-answer?d=1;linear:-8 HTTP/1.1",
+            OWN + b"Sec-Fetch-Site: cross-site\r\n",
+            403,
+            b"other sites",
+        ),
+        (
+            b"GET /first-answer?d=1;linear:-8 HTTP/1.1",
+            OWN + b"Sec-Fetch-Site: same-origin\r\n",
+            200,
+            b"",
+        ),
     ],
 )
-def test_each_request_has_an_answer(address: str, line: bytes, headers: bytes, status: int, words: bytes):
+def test_each_request_has_an_answer(
+    address: str, line: bytes, headers: bytes, status: int, words: bytes
+):
     """Also those of health checks; they come in pieces."""
     answer = b""
-    with socket.create_connection(("127.0.0.1", int(address.rpartition(":")[2])), timeout=90.0) as probe:
+    with socket.create_connection(
+        ("127.0.0.1", int(address.rpartition(":")[2])), timeout=90.0
+    ) as probe:
         probe.sendall(line[:3])
         probe.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         probe.sendall(line[3:] + b"\r\n" + headers + b"\r\n")
@@ -211,7 +259,9 @@ class TestAllowedHosts:
 
         monkeypatch.setattr(viser, "ViserServer", Elsewhere)
         with pytest.raises(RuntimeError, match="without its request filter"):
-            viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
+            viser_compat.quiet_server(
+                "127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1)
+            )
 
     def test_an_unknown_host_to_listen_on_is_one_sentence(self):
         with pytest.raises(PortBusy, match="choose another with --host"):
@@ -228,7 +278,9 @@ class TestStrangers:
             monkeypatch.setattr(
                 request_filter,
                 "RateLimiter",
-                lambda now, *given: server_limits.RateLimiter(now, *(given or (server_limits.RateLimit(0.01, 50.0),))),
+                lambda now, *given: server_limits.RateLimiter(
+                    now, *(given or (server_limits.RateLimit(0.01, 50.0),))
+                ),
             )
             flooder = Visitor()
             await flooder.open(app.address)
@@ -236,11 +288,19 @@ class TestStrangers:
                 await flooder.send("GuiUpdateMessage", uuid="none", updates={})
             with pytest.raises(ConnectionError, match="Rate limit exceeded"):
                 await flooder.until(lambda: False)
-            for junk in ("text", b"\xff\xff", b"", wire.encode("NoSuch"), wire.encode("GuiUpdateMessage", colour=1)):
+            for junk in (
+                "text",
+                b"\xff\xff",
+                b"",
+                wire.encode("NoSuch"),
+                wire.encode("GuiUpdateMessage", colour=1),
+            ):
                 assert await cut(app, junk) in (None, 1002, 1007)
             await still_served(other)
             connections = app.server._websock_server._live_connections.values()
-            assert [one.protocol.max_message_size for one in connections] == [server_limits.LARGEST_MESSAGE]
+            assert [one.protocol.max_message_size for one in connections] == [
+                server_limits.LARGEST_MESSAGE
+            ]
             await other.close()
 
         ran(work)
@@ -254,7 +314,12 @@ class TestUploads:
             visitor = await arrived(app.address)
             for name, size, parts, sentence in (
                 ("mine.json", len(design), [design], "Loaded: mine.json is on the sliders"),
-                ("large.json", server_limits.LARGEST_FILE + 1, [b"x"], "File refused: 'large.json' has 4.0 MB"),
+                (
+                    "large.json",
+                    server_limits.LARGEST_FILE + 1,
+                    [b"x"],
+                    "File refused: 'large.json' has 4.0 MB",
+                ),
                 ("film.mp4", 10, [b"x" * 10], "choose a .json"),
                 ("liar.json", 10, [b"x" * 5, b"x" * 600], "not as long as announced"),
                 ("again.json", len(design), [design], "Loaded: again.json is on the sliders"),
@@ -263,7 +328,10 @@ class TestUploads:
                 await upload(visitor, name, size, parts)
                 await visitor.until(lambda: bool(visitor.notices))
                 assert sentence in visitor.notices[0]
-                assert not any(client.gui._current_file_upload_states for client in app.server.get_clients().values())
+                assert not any(
+                    client.gui._current_file_upload_states
+                    for client in app.server.get_clients().values()
+                )
             await visitor.close()
 
         ran(work)
@@ -272,7 +340,9 @@ class TestUploads:
 @pytest.mark.slow
 class TestPlaces:
     def test_too_many_connections_are_refused(self):
-        server = viser_compat.quiet_server("127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1))
+        server = viser_compat.quiet_server(
+            "127.0.0.1", 0, "x", RequestFilter(AllowedHosts("127.0.0.1"), 1)
+        )
         try:
 
             async def work() -> None:
@@ -309,7 +379,11 @@ async def upload(visitor: Visitor, name: str, size: int, parts: list[bytes]) -> 
     )
     for k, part in enumerate(parts):
         await visitor.send(
-            "FileTransferPart", source_component_uuid=button, transfer_uuid="t", part_index=k, content=part
+            "FileTransferPart",
+            source_component_uuid=button,
+            transfer_uuid="t",
+            part_index=k,
+            content=part,
         )
 
 
@@ -350,7 +424,9 @@ def _frame(first: int, payload: bytes = b"") -> bytes:
 
 class TestMessagesThatNeverEnd:
     @pytest.mark.parametrize("part", [b"", b"x"], ids=["empty", "a byte"])
-    def test_endless_parts_end_their_own_connection(self, app: App, part: bytes, caplog: pytest.LogCaptureFixture):
+    def test_endless_parts_end_their_own_connection(
+        self, app: App, part: bytes, caplog: pytest.LogCaptureFixture
+    ):
         """1.5 million empty parts in 8 s took 110 MB, and nothing ended them."""
         sent = 0
         with _handshake(app) as own, suppress(OSError):
@@ -379,7 +455,9 @@ class TestMessagesThatNeverEnd:
         ran(visit)
 
 
-@pytest.mark.parametrize(("allowed", "served"), [((), False), (("127.0.0.2",), True), (("rotor.example",), False)])
+@pytest.mark.parametrize(
+    ("allowed", "served"), [((), False), (("127.0.0.2",), True), (("rotor.example",), False)]
+)
 def test_behind_a_proxy_at_another_address_of_this_machine(allowed: tuple[str, ...], served: bool):
     """It is refused with the flag that allows it, and served with that flag."""
     app = App("127.0.0.1", 0, limits=ServerLimits(allow_hosts=allowed))
@@ -392,7 +470,9 @@ def test_behind_a_proxy_at_another_address_of_this_machine(allowed: tuple[str, .
         to.close()
 
     async def relay(reader: asyncio.StreamReader, writer: asyncio.StreamWriter) -> None:
-        theirs = await asyncio.open_connection("127.0.0.1", app.server.get_port(), local_addr=("127.0.0.3", 0))
+        theirs = await asyncio.open_connection(
+            "127.0.0.1", app.server.get_port(), local_addr=("127.0.0.3", 0)
+        )
         await asyncio.gather(copy(reader, theirs[1]), copy(theirs[0], writer))
 
     async def visit() -> str:

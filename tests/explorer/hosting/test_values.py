@@ -29,7 +29,9 @@ DIGITS = "9" * 400
         (1.0, (1.0, 2.0), {}), ("x" * (LONGEST_TEXT + 1), "a", {}), ((1.0, math.nan), (1.0, 2.0), {}),
     ],
 )  # fmt: skip
-def test_a_value_that_a_widget_cannot_hold_is_refused(value: Any, current: Any, limits: dict[str, Any]):
+def test_a_value_that_a_widget_cannot_hold_is_refused(
+    value: Any, current: Any, limits: dict[str, Any]
+):
     with pytest.raises(ValueError, match="cannot hold") as refusal:
         accepted_value(value, current, **limits)
     assert len(str(refusal.value)) < 150
@@ -68,7 +70,9 @@ def test_an_address_beyond_every_limit_gets_a_sentence(app: App):
 
 
 @pytest.mark.parametrize(
-    "path", ["x" * 7000, "x/" * 3000, "%00", "a" * 300, "..%2f..%2fetc/passwd"], ids=lambda path: path[:8]
+    "path",
+    ["x" * 7000, "x/" * 3000, "%00", "a" * 300, "..%2f..%2fetc/passwd"],
+    ids=lambda path: path[:8],
 )
 def test_a_path_that_no_file_can_have_is_not_found(app: App, path: str):
     with pytest.raises(urllib.error.HTTPError, match="404") as refusal:
@@ -80,7 +84,10 @@ def test_a_value_is_not_sent_back_to_the_page_it_came_from(app: App):
     async def drag() -> list[Any]:
         visitor = await arrived(app.address)
         (session,) = app.sessions
-        buffer, queued = session.page.context.client._websock_connection.get_message_buffer(), list[Any]()
+        buffer, queued = (
+            session.page.context.client._websock_connection.get_message_buffer(),
+            list[Any](),
+        )
         push = buffer.push
 
         def watched(message: Message) -> None:
@@ -108,4 +115,6 @@ def test_only_quick_callbacks_are_called_at_once():
         callbacks = _Callbacks(threads)
         assert callbacks.submit(here).result() != threading.get_ident()
         assert callbacks.submit(on_event_loop(lambda *_: here())).result() == threading.get_ident()
-        assert isinstance(callbacks.submit(on_event_loop(lambda *_: fail())).exception(), ZeroDivisionError)
+        assert isinstance(
+            callbacks.submit(on_event_loop(lambda *_: fail())).exception(), ZeroDivisionError
+        )

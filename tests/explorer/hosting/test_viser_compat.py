@@ -67,7 +67,9 @@ def test_a_node_is_placed_as_its_setters_place_it(server: viser.ViserServer):
     one.wxyz, one.position = turn, way
     viser_compat.set_pose(other, turn, way)
     theirs, ours = ([vars(message) for message in half] for half in (queued[:2], queued[2:]))
-    assert [{**fields, "name": ""} for fields in theirs] == [{**fields, "name": ""} for fields in ours]
+    assert [{**fields, "name": ""} for fields in theirs] == [
+        {**fields, "name": ""} for fields in ours
+    ]
     assert list(map(type, queued[:2])) == list(map(type, queued[2:]))
     assert np.array_equal(other.wxyz, turn)
     assert np.array_equal(other.position, way)
@@ -81,11 +83,20 @@ def test_a_node_is_placed_as_its_setters_place_it(server: viser.ViserServer):
 def test_a_camera_is_aimed_as_its_setters_aim_it():
     """It sends the messages of the setters, and none for what stays."""
     queued: list[Any] = []
-    connection = SimpleNamespace(queue_message=lambda message: queued.append((type(message), vars(message))))
-    one, other = (viser.CameraHandle(cast(Any, SimpleNamespace(_websock_connection=connection))) for _ in range(2))
+    connection = SimpleNamespace(
+        queue_message=lambda message: queued.append((type(message), vars(message)))
+    )
+    one, other = (
+        viser.CameraHandle(cast(Any, SimpleNamespace(_websock_connection=connection)))
+        for _ in range(2)
+    )
     for camera in (one, other):
         state = camera._state
-        state.update_timestamp, state.up_direction, state.look_at = 1.0, np.array([0.0, 0.0, 1.0]), np.ones(3)
+        state.update_timestamp, state.up_direction, state.look_at = (
+            1.0,
+            np.array([0.0, 0.0, 1.0]),
+            np.ones(3),
+        )
     position, target = np.array([5.0, -4.0, 3.0]), np.array([1.0, 0.5, 0.0])
     one.position, one.look_at = position, target
     theirs = dict(queued)  # Of each kind the last one counts.
@@ -116,6 +127,10 @@ def test_the_versions_are_those_that_the_changes_are_for():
     project = (Path(__file__).parents[3] / "pyproject.toml").read_text(encoding="utf-8")
     assert f'"viser=={viser_compat.VISER}"' in project
     assert f'"websockets>={viser_compat.WEBSOCKETS},<17"' in project
-    assert "websockets<17.0.0,>=13.1" in (requires("viser") or []), "viser allows other versions now: so may we"
-    client = (Path(viser_compat.__file__).parents[1] / "web" / "viser.js").read_text(encoding="utf-8")
+    assert "websockets<17.0.0,>=13.1" in (requires("viser") or []), (
+        "viser allows other versions now: so may we"
+    )
+    client = (Path(viser_compat.__file__).parents[1] / "web" / "viser.js").read_text(
+        encoding="utf-8"
+    )
     assert f"viser {viser_compat.VISER}" in client.splitlines()[1]

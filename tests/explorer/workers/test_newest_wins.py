@@ -272,10 +272,18 @@ class TestCrowd:
         ended.set()
         assert most == 1
 
-    def test_one_slow_frame_does_not_put_a_page_behind_the_charts_of_others(self, monkeypatch: pytest.MonkeyPatch):
+    def test_one_slow_frame_does_not_put_a_page_behind_the_charts_of_others(
+        self, monkeypatch: pytest.MonkeyPatch
+    ):
         """The first frame of each page is slow: who moves a slider then does not wait for what others still compute."""
         monkeypatch.setattr(newest_wins, "_SLOW_FRAME_S", 0.01)
-        pool, go, begun, ended, frames = UpdatePool(2), threading.Event(), threading.Event(), list[bool](), [0]
+        pool, go, begun, ended, frames = (
+            UpdatePool(2),
+            threading.Event(),
+            threading.Event(),
+            list[bool](),
+            [0],
+        )
 
         def opened() -> None:
             end = time.thread_time() + (0.02 if frames[0] == 0 else 0.0)

@@ -43,5 +43,7 @@ print(sorted(one for one in compiled() - before if one[0].startswith(("rotor", "
 
 @pytest.mark.slow
 def test_nothing_is_compiled_after_set_up():
-    done = subprocess.run([sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=600, check=True)
+    done = subprocess.run(
+        [sys.executable, "-c", SCRIPT], capture_output=True, text=True, timeout=600, check=True
+    )
     assert done.stdout.strip() == "[]"

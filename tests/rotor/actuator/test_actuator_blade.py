@@ -23,7 +23,9 @@ SPEED = 27.0
 MFC = actuators_of_kind(PiezoPly)["MFC_P1"]
 
 
-def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyration: float = 0.0) -> BendingStructure:
+def uniform(
+    gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyration: float = 0.0
+) -> BendingStructure:
     two = (0.0, length)
     return BendingStructure(
         radius=length, chord=0.5, clamp=0.0, stations=two, torsional_stiffness=(gj, gj),
@@ -33,7 +35,9 @@ def uniform(gj: float = 7e4, inertia: float = 0.15, length: float = 6.0, gyratio
     )  # fmt: skip
 
 
-def mfc(plies: int = 2, host: HostBlade | None = None, placement: Placement | None = None) -> InstalledActuator:
+def mfc(
+    plies: int = 2, host: HostBlade | None = None, placement: Placement | None = None
+) -> InstalledActuator:
     rotor = uh60a_rotor("flight")
     return install(MFC, placement or default_placement(plies), host or HostBlade(), rotor)
 
@@ -55,7 +59,9 @@ def test_rotation_reduces_the_twist(host: HostBlade, taken: float):
     """The shares that docs/theory.md §17 states, by trapeze effect and propeller moment, with two plies."""
     installed = mfc(2, host)
     low, high = (installed.beam.r[-1] * end for end in installed.placement.span)
-    moment = installed.moment * np.diff(np.clip(installed.beam.r, low, high)) / np.diff(installed.beam.r)
+    moment = (
+        installed.moment * np.diff(np.clip(installed.beam.r, low, high)) / np.diff(installed.beam.r)
+    )
     still = torsion_beam(uh60a_structure(), 0.0, scale=host.stiffness, addition=installed.added)
     share = 1.0 - installed.attainable / twist_under_moment(still, moment)[-1]
     assert_allclose(share, taken, atol=0.006)
@@ -64,7 +70,8 @@ def test_rotation_reduces_the_twist(host: HostBlade, taken: float):
 def test_trapeze_effect_stiffens_the_blade():
     """GJ_e = GJ + F_c k_A²: k_A² is a constant share of a nearly constant pull, so twist is reduced by that share."""
     still, stiff = (
-        twist_under_moment(torsion_beam(uniform(gyration=k), SPEED), np.full(240, 400.0))[-1] for k in (0.0, 0.01)
+        twist_under_moment(torsion_beam(uniform(gyration=k), SPEED), np.full(240, 400.0))[-1]
+        for k in (0.0, 0.01)
     )
     pull = uniform().centrifugal_force(np.linspace(0, 6, 601), SPEED)
     assert_allclose(still / stiff - 1.0, 0.01 * pull.mean() / 7e4, rtol=0.15)
@@ -73,7 +80,9 @@ def test_trapeze_effect_stiffens_the_blade():
 def test_centrifugal_force_of_the_blade():
     """285 kN at 2 m, an independent integration of the same table; uniform: ½mΩ²(R² − r²)."""
     assert_allclose(uh60a_structure().centrifugal_force(2.0, SPEED), 285e3, rtol=0.05)
-    assert_allclose(uniform().centrifugal_force(2.0, SPEED), 0.5 * 10.0 * SPEED**2 * (36.0 - 4.0), rtol=1e-4)
+    assert_allclose(
+        uniform().centrifugal_force(2.0, SPEED), 0.5 * 10.0 * SPEED**2 * (36.0 - 4.0), rtol=1e-4
+    )
 
 
 # Kind, share, plies: tip twist [deg] rotating, actuator mass [kg], first torsion [per rev].
@@ -87,7 +96,9 @@ WORKED = [
 
 
 @pytest.mark.parametrize(("kind", "share", "plies", "tip", "mass", "frequency"), WORKED)
-def test_worked_example(kind: str, share: float, plies: int, tip: float, mass: float, frequency: float):
+def test_worked_example(
+    kind: str, share: float, plies: int, tip: float, mass: float, frequency: float
+):
     """Indicative: an independent beam held at 2 m, without leads and nose weights; ours is held at the hinge.
 
     So ours untwists more (8 % on the softest blade), and the added inertia counts about the quarter chord (6 %).
@@ -100,14 +111,20 @@ def test_worked_example(kind: str, share: float, plies: int, tip: float, mass: f
     beam = torsion_beam(uh60a_structure(), SPEED, scale=share, addition=bare)
     centres = 0.5 * (beam.r[1:] + beam.r[:-1])
     moment = np.where((centres > bare.span[0]) & (centres < bare.span[1]), installed.moment, 0.0)
-    assert_allclose(math.degrees(twist_under_moment(beam, moment)[-1]), tip, rtol=0.05 if share >= 0.9 else 0.08)
+    assert_allclose(
+        math.degrees(twist_under_moment(beam, moment)[-1]), tip, rtol=0.05 if share >= 0.9 else 0.08
+    )
     assert_allclose(torsion_frequency(beam), frequency, rtol=0.06)
     assert installed.attainable < math.radians(tip) * 1.01
 
 
-def tube(count: int, stiffness: float = 1.0, divisions: tuple[float, ...] = ()) -> InstalledActuator:
+def tube(
+    count: int, stiffness: float = 1.0, divisions: tuple[float, ...] = ()
+) -> InstalledActuator:
     host = HostBlade("new", stiffness)
-    return install(find_actuator("SMA_tube"), default_placement(count, divisions), host, uh60a_rotor("flight"))
+    return install(
+        find_actuator("SMA_tube"), default_placement(count, divisions), host, uh60a_rotor("flight")
+    )
 
 
 @pytest.mark.parametrize("count", [1, 2, 4])
@@ -129,7 +146,8 @@ def test_tubes_of_two_segments_have_a_link_each():
     """Shorter segments twist less and wind up less, so each tube keeps more of its torque."""
     whole, parts = tube(1), tube(1, divisions=(0.5,))
     assert parts.moment > whole.moment
-    assert_allclose(parts.masses.actuator - whole.masses.actuator, 8.2, rtol=1e-9)  # A second package, the same link.
+    # A second package, the same link.
+    assert_allclose(parts.masses.actuator - whole.masses.actuator, 8.2, rtol=1e-9)
 
 
 def test_segments_add_up():
@@ -149,7 +167,11 @@ def flap_moment(stiffness: float, at: float) -> float:
     """Under 100 N/m, hinged at the shaft [N m]."""
     blade = replace(uniform(), flap_stiffness=(stiffness, stiffness))
     nodes = np.linspace(0.0, 6.0, ELEMENTS + 1)
-    return float(bending_moments(blade, SPEED, nodes, np.full((ELEMENTS + 1, 1), 100.0), np.array([at]))[0, 0])
+    return float(
+        bending_moments(blade, SPEED, nodes, np.full((ELEMENTS + 1, 1), 100.0), np.array([at]))[
+            0, 0
+        ]
+    )
 
 
 def test_flap_bending_of_a_string_and_of_a_stiff_blade():
@@ -205,17 +227,36 @@ def retrofit(id: str, plies: int) -> InstalledActuator:
 @pytest.mark.parametrize(
     ("installed", "swing", "broken", "kept", "words"),
     [
-        (mfc(1), 0.5, {"temperature"}, {"voltage", "mass"}, ("a swing of 1000 V", "linear up to 1000", "per side: 1,")),
+        (
+            mfc(1),
+            0.5,
+            {"temperature"},
+            {"voltage", "mass"},
+            ("a swing of 1000 V", "linear up to 1000", "per side: 1,"),
+        ),
         (mfc(1), 1.2, {"voltage", "field"}, set(), ()),
         (mfc(4), 1.0, {"mass", "space"}, {"voltage"}, ()),
         (mfc(1, placement=Placement(chord=(0.15, 0.8), plies=1)), 1.0, set(), {"temperature"}, ()),
         (mfc(2, HostBlade("new", 0.25)), 1.0, {"torsion-least"}, {"space"}, ()),
         (retrofit("SMA_tube", 2), 1.0, {"space"}, {"torque"}, ()),
         (retrofit("MFC_P1_HT", 1), 1.0, set(), {"temperature"}, ()),
-        (retrofit("PZT5A", 1), 5e4, {"voltage"}, set(), ("out of range at any voltage",)),  # It hardly shears.
+        # It hardly shears.
+        (
+            retrofit("PZT5A", 1),
+            5e4,
+            {"voltage"},
+            set(),
+            ("out of range at any voltage",),
+        ),
     ],
 )
-def test_limits(installed: InstalledActuator, swing: float, broken: set[str], kept: set[str], words: tuple[str, ...]):
+def test_limits(
+    installed: InstalledActuator,
+    swing: float,
+    broken: set[str],
+    kept: set[str],
+    words: tuple[str, ...],
+):
     """Each has one sentence, met or exceeded."""
     found = limits(installed, (swing,))
     assert broken <= {limit.name for limit in found if not limit.ok}
@@ -230,7 +271,9 @@ def test_limits(installed: InstalledActuator, swing: float, broken: set[str], ke
 
 
 @pytest.mark.parametrize("off", ["", "elastic-twist"])
-@pytest.mark.parametrize("spec", ["MFC_P1", "MFC_P1,plies=3,span=0.3:0.9,gj=0.5,divisions=0.5,drive=77:-50,crossed=1"])
+@pytest.mark.parametrize(
+    "spec", ["MFC_P1", "MFC_P1,plies=3,span=0.3:0.9,gj=0.5,divisions=0.5,drive=77:-50,crossed=1"]
+)
 def test_a_design_with_an_actuator_is_kept_in_a_file(spec: str, off: str):
     """The file holds the numbers of the actuator: it is the same design without its data."""
     bare = make_design(mu=0.2, inflow="drees", off=off or None)
@@ -244,12 +287,21 @@ def test_a_design_with_an_actuator_is_kept_in_a_file(spec: str, off: str):
     assert design.rotor.blade.carried is not None
     assert design.rotor.blade.carried.spec == spec
     assert_allclose(solve(read).power.total, solve(design).power.total, rtol=1e-6)
-    assert design.condition.mass - bare.condition.mass == pytest.approx(design.rotor.blade.carried.aircraft_kg)
+    assert design.condition.mass - bare.condition.mass == pytest.approx(
+        design.rotor.blade.carried.aircraft_kg
+    )
 
 
 def test_a_file_with_wrong_numbers_of_an_actuator_is_a_sentence():
-    assert make_design(case=with_actuator(make_design(), "MFC_P1"), mu=0.2) == with_actuator(make_design(), "MFC_P1")
+    assert make_design(case=with_actuator(make_design(), "MFC_P1"), mu=0.2) == with_actuator(
+        make_design(), "MFC_P1"
+    )
     record = with_actuator(make_design(), "MFC_P1").to_dict()
-    for key, value in (("span_m", [5.0, 4.0]), ("aircraft_kg", -1.0), ("gj_factor", 0.0), ("weight", 3.0)):
+    for key, value in (
+        ("span_m", [5.0, 4.0]),
+        ("aircraft_kg", -1.0),
+        ("gj_factor", 0.0),
+        ("weight", 3.0),
+    ):
         with pytest.raises(ValueError, match=key.partition("_")[0]):
             design_from_record({**record, "actuator": {**record["actuator"], key: value}})

@@ -57,7 +57,11 @@ def test_lift_to_drag_as_power_by_hand():
     assert single.power_change_percent == pytest.approx(3.5518, rel=1e-4)
     assert both.power_change_percent == pytest.approx(-0.3686, rel=1e-3)
     jain = next(found for found in programmes() if found.short == "Jain et al.")
-    assert (jain.power_change_percent, jain.lift_to_drag_percent) == (-3.3, 7.3)  # As stated, where it is.
+    # As stated, where it is.
+    assert (jain.power_change_percent, jain.lift_to_drag_percent) == (
+        -3.3,
+        7.3,
+    )
 
 
 @pytest.mark.parametrize("found", programmes(), ids=lambda found: found.name)

@@ -9,7 +9,14 @@ from test_actuator_section import DIAGONAL, METAL, blade, ply
 from rotor.actuator.ply import PiezoPly, active_section, passive_skin
 from rotor.actuator.section import Placement, SectionSpec, default_placement, skin, web_line
 from rotor.dynamics.structure import glass
-from rotor.dynamics.thin_wall import Layer, Material, Panel, build_section, induced_twist_rate, torsional_stiffness
+from rotor.dynamics.thin_wall import (
+    Layer,
+    Material,
+    Panel,
+    build_section,
+    induced_twist_rate,
+    torsional_stiffness,
+)
 
 NOTHING = Material("nothing", 1e5, 1e5, 0.3, 1e5 / 2.6, 1.0)
 
@@ -25,12 +32,17 @@ def test_finite_elements_of_a_round_tube():
     assert_allclose(answer.twist_rate, 2.0 * strain / radius, rtol=2e-3)
 
 
-def box_by_elements(spec: SectionSpec, sheet: PiezoPly, placement: Placement, where: str) -> Stiffness:
+def box_by_elements(
+    spec: SectionSpec, sheet: PiezoPly, placement: Placement, where: str
+) -> Stiffness:
     """The torsion box of a new blade, its plies outside the passive skin or in the middle of it."""
     wall = passive_skin(spec, sheet, placement)
     active = sheet.layer(placement.plies, DIAGONAL)
     front, rear = placement.chord
-    upper = [skin(spec, "upper", front, rear, 40)[::-1][:-1], skin(spec, "upper", 0.0, front, 20)[::-1][:-1]]
+    upper = [
+        skin(spec, "upper", front, rear, 40)[::-1][:-1],
+        skin(spec, "upper", 0.0, front, 20)[::-1][:-1],
+    ]
     lower = [skin(spec, "lower", 0.0, front, 20)[:-1], skin(spec, "lower", front, rear, 40)]
     skins = np.concatenate([*upper, *lower])
     line = np.concatenate([skins, web_line(spec, rear, 10)[1:-1]])
@@ -63,7 +75,9 @@ def test_plies_outside_a_thick_wall_twist_more():
     for share, plies in ((0.5, 2), (1.0, 1)):
         spec, placement = blade("new", share), default_placement(plies)
         answer = box_by_elements(spec, ply("MFC_P1"), placement, "outside")
-        gains.append(answer.twist_rate / induced_twist_rate(active_section(spec, ply("MFC_P1"), placement)))
+        gains.append(
+            answer.twist_rate / induced_twist_rate(active_section(spec, ply("MFC_P1"), placement))
+        )
     assert 1.0 < gains[0] < 1.05 < gains[1] < 1.2
 
 
@@ -73,7 +87,12 @@ def test_two_cells_by_finite_elements():
     soft = Material("soft", 20e9, 20e9, 0.3, 20e9 / 2.6, 2000.0)
     active = ply("MFC_P1").layer(1, DIAGONAL)
     half = 0.5 * wall / spec.chord
-    cuts = ((0.0, 0.05, 20), (0.05, web - half, 26), (web - half, web + half, 2), (web + half, 0.8, 30))
+    cuts = (
+        (0.0, 0.05, 20),
+        (0.05, web - half, 26),
+        (web - half, web + half, 2),
+        (web + half, 0.8, 30),
+    )
     upper = [skin(spec, "upper", a, b, n)[::-1][:-1] for a, b, n in reversed(cuts)]
     lower = [skin(spec, "lower", a, b, n)[: None if b == 0.8 else -1] for a, b, n in cuts]
     skins = np.concatenate([*upper, *lower])
@@ -83,14 +102,21 @@ def test_two_cells_by_finite_elements():
         x = 0.5 * (line[k] + line[(k + 1) % len(line)])[0] / spec.chord
         on = x > 0.05 and k < len(skins) - 1
         layers.append(
-            [Layer(METAL if x < web else soft, wall, 0.0), active if on else Layer(NOTHING, active.thickness, 0.0)]
+            [
+                Layer(METAL if x < web else soft, wall, 0.0),
+                active if on else Layer(NOTHING, active.thickness, 0.0),
+            ]
         )
     ends = (29, sum(len(part) for part in upper) + 19 + 25)
     answer = analyse(*with_web(*closed_wall(line, layers), ends, Layer(METAL, wall, 0.0)))
 
     def panel(side: str, a: float, b: float, layer: Layer, cell: int, on: bool) -> Panel:
         points = skin(spec, side, a, b, 60)
-        return Panel(points if side == "lower" else points[::-1], (layer, active) if on else (layer,), (cell,))
+        return Panel(
+            points if side == "lower" else points[::-1],
+            (layer, active) if on else (layer,),
+            (cell,),
+        )
 
     metal, aft = Layer(METAL, wall, 0.0), Layer(soft, wall, 0.0)
     section = build_section(

@@ -27,7 +27,9 @@ LEGS = (FlightLeg("hover", 0.0), FlightLeg("climb", 0.15, 5.0), FlightLeg("fast"
 
 
 @cache
-def verdict(kind: str = "new", id: str = "MFC_P1", preset: str = "flight", concept: str = "linear") -> Verdict:
+def verdict(
+    kind: str = "new", id: str = "MFC_P1", preset: str = "flight", concept: str = "linear"
+) -> Verdict:
     design = make_design(preset=preset)
     coarse = replace(design, models=replace(design.models, elements=16, azimuths=36))
     host = HostBlade() if kind == "retrofit" else HostBlade("new", 0.5)
@@ -40,12 +42,17 @@ def flown(kind: str = "new", id: str = "MFC_P1") -> ActuatorFlight:
     return fly(verdict(kind, id), LEGS)
 
 
-@pytest.mark.parametrize(("kind", "id"), [("retrofit", "MFC_P1"), ("new", "MFC_P1"), ("new", "SMA_tube")])
+@pytest.mark.parametrize(
+    ("kind", "id"), [("retrofit", "MFC_P1"), ("new", "MFC_P1"), ("new", "SMA_tube")]
+)
 def test_the_legs_of_the_verdict_save_what_the_verdict_says(kind: str, id: str):
     """Both find the least power within one range; the flight may drive the first condition too, which a jig does as
     well for a new blade, but for the shape of the plies."""
     judged, both = verdict(kind, id), fly(verdict(kind, id), (LEGS[0], LEGS[2]))
-    loaded = [solve(with_actuator_mass(design, judged.installed)).require().power.total for design in both.designs]
+    loaded = [
+        solve(with_actuator_mass(design, judged.installed)).require().power.total
+        for design in both.designs
+    ]
     saving = judged.reference_power - float(np.mean(loaded)) - judged.drive.hold_power
     assert saving >= judged.net_saving - 1.0
     assert_allclose(saving, judged.net_saving, rtol=1e-5 if kind == "retrofit" else 0.01)
@@ -92,7 +99,9 @@ def test_stopped_where_it_works_the_same_changes_nothing():
     design = rotor.make_design(**PLAIN)
     (point,) = stopped_designs([design], design)
     assert point.cost == 0.0
-    assert point.power_left == pytest.approx((design.aircraft.installed_power or 0.0) - (point.stopped.power or 0.0))
+    assert point.power_left == pytest.approx(
+        (design.aircraft.installed_power or 0.0) - (point.stopped.power or 0.0)
+    )
 
 
 def test_frozen_twist_is_that_design():
@@ -110,11 +119,15 @@ def test_a_twist_frozen_takes_the_pitch_at_the_root_from_the_controls():
     (rigged,) = stopped_designs([design], design.with_twist("linear:-16"), design.twist)
     (own,) = stopped_designs([design], design.with_twist("linear:-16"))
     low, high = rotor.make_design().aircraft.controls.collective  # pyright: ignore[reportOptionalMemberAccess]
-    left = {"own": own.stopped.collective, "rigged": own.stopped.collective + math.radians(6.0 * (0.75 - 0.1304))}
+    left = {
+        "own": own.stopped.collective,
+        "rigged": own.stopped.collective + math.radians(6.0 * (0.75 - 0.1304)),
+    }
     for point, pitch in ((own, left["own"]), (rigged, left["rigged"])):
         place = (pitch - low) / (high - low)
         assert point.stopped.controls_left is not None
-        assert point.stopped.controls_left <= min(place, 1.0 - place) + 1e-12  # A cyclic may be nearer to its stop.
+        # A cyclic may be nearer to its stop.
+        assert point.stopped.controls_left <= min(place, 1.0 - place) + 1e-12
     assert rigged.stopped.controls_left == pytest.approx((high - left["rigged"]) / (high - low))
     assert rotor.make_design(rotor="r22").aircraft.controls is None
 
@@ -124,10 +137,14 @@ def test_frozen_twist_at_n_per_rev_keeps_amplitude_and_phase():
     (same,) = stopped_designs([design], design)
     assert same.cost == 0.0
     elsewhere = rotor.make_design(**PLAIN).at(mu=0.15)
-    other = replace(elsewhere, active_twist=rotor.make_design(**PLAIN, twist_per_rev="2:1.5:20").active_twist)
+    other = replace(
+        elsewhere, active_twist=rotor.make_design(**PLAIN, twist_per_rev="2:1.5:20").active_twist
+    )
     (point,) = stopped_designs([design], other)
     by_phase = {
-        phase: rotor.solve(rotor.make_design(**PLAIN, twist_per_rev=f"2:1.5:{phase}")).require().power.total
+        phase: rotor.solve(rotor.make_design(**PLAIN, twist_per_rev=f"2:1.5:{phase}"))
+        .require()
+        .power.total
         for phase in (20, 200)
     }
     assert_allclose(point.stopped.power or 0.0, by_phase[20], rtol=1e-5)

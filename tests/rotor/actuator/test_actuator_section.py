@@ -52,8 +52,16 @@ def axial_stiffness(section: WallSection) -> float:
     """EA [N], bendings and twist free: of a force at the tension centre, where ε_x is the least over all points."""
     base = respond(section, force=1.0)
     by_y, by_z = respond(section, moments=(1.0, 0.0)), respond(section, moments=(0.0, 1.0))
-    compliance = np.array([[e.extension, e.curvature_y, e.curvature_z] for e in (base, by_y, by_z)]).T
-    return float(1.0 / (compliance[0, 0] - compliance[0, 1:] @ np.linalg.solve(compliance[1:, 1:], compliance[1:, 0])))
+    compliance = np.array(
+        [[e.extension, e.curvature_y, e.curvature_z] for e in (base, by_y, by_z)]
+    ).T
+    return float(
+        1.0
+        / (
+            compliance[0, 0]
+            - compliance[0, 1:] @ np.linalg.solve(compliance[1:, 1:], compliance[1:, 0])
+        )
+    )
 
 
 def ply(id: str) -> PiezoPly:
@@ -69,13 +77,20 @@ def test_rotated_stiffness_agrees_with_the_textbook():
     (q11, q12, _), (_, q22, _), (_, _, q66) = q
     c, s = math.cos(angle), math.sin(angle)
     bar = rotated_stiffness(ply("MFC_P1").material, angle)
-    assert_allclose(bar[0, 2], (q11 - q12 - 2 * q66) * s * c**3 + (q12 - q22 + 2 * q66) * s**3 * c, rtol=1e-12)
-    assert_allclose(bar[1, 2], (q11 - q12 - 2 * q66) * s**3 * c + (q12 - q22 + 2 * q66) * s * c**3, rtol=1e-12)
-    assert_allclose(bar[2, 2], (q11 + q22 - 2 * q12 - 2 * q66) * s**2 * c**2 + q66 * (s**4 + c**4), rtol=1e-12)
+    assert_allclose(
+        bar[0, 2], (q11 - q12 - 2 * q66) * s * c**3 + (q12 - q22 + 2 * q66) * s**3 * c, rtol=1e-12
+    )
+    assert_allclose(
+        bar[1, 2], (q11 - q12 - 2 * q66) * s**3 * c + (q12 - q22 + 2 * q66) * s * c**3, rtol=1e-12
+    )
+    assert_allclose(
+        bar[2, 2], (q11 + q22 - 2 * q12 - 2 * q66) * s**2 * c**2 + q66 * (s**4 + c**4), rtol=1e-12
+    )
 
 
 @pytest.mark.parametrize(
-    ("id", "expected"), [("MFC_P1", 8.5e3), ("MFC_P2", -1.3e3), ("AFC", 1.2e3), ("PZT5H_strips", -1.3e3)]
+    ("id", "expected"),
+    [("MFC_P1", 8.5e3), ("MFC_P2", -1.3e3), ("AFC", 1.2e3), ("PZT5H_strips", -1.3e3)],
 )
 def test_blocked_shear_flow_of_one_ply(id: str, expected: float):
     """½t[(Q11 − Q12)Λ1 − (Q22 − Q12)Λ2] at 45°, and the independently tabulated values [N/m]."""
@@ -107,7 +122,10 @@ def ring(panel_points: np.ndarray, layers: tuple[Layer, ...]) -> WallSection:
 def rectangle(width: float, height: float) -> np.ndarray:
     corners = np.array([[width, height], [0.0, height], [0.0, 0.0], [width, 0.0]])
     return np.concatenate(
-        [a + np.linspace(0, 1, 41)[:-1, None] * (b - a) for a, b in zip(corners, np.roll(corners, -1, 0), strict=True)]
+        [
+            a + np.linspace(0, 1, 41)[:-1, None] * (b - a)
+            for a, b in zip(corners, np.roll(corners, -1, 0), strict=True)
+        ]
     )
 
 
@@ -116,7 +134,9 @@ def test_bredt_one_cell():
     width, height, t, strain = 0.3, 0.05, 0.002, 5e-4
     section = ring(rectangle(width, height), (Layer(METAL, t, DIAGONAL, (strain, -strain)),))
     area, perimeter = width * height, 2.0 * (width + height)
-    assert_allclose(torsional_stiffness(section), 4 * area**2 * METAL.g12 * t / perimeter, rtol=1e-9)
+    assert_allclose(
+        torsional_stiffness(section), 4 * area**2 * METAL.g12 * t / perimeter, rtol=1e-9
+    )
     assert_allclose(axial_stiffness(section), METAL.e1 * t * perimeter, rtol=1e-9)
     assert_allclose(induced_twist_rate(section), 2 * strain * perimeter / (2 * area), rtol=1e-9)
 
@@ -130,8 +150,14 @@ def test_batho_two_cells_by_hand():
     layer, whole = (Layer(METAL, t, 0.0),), first + second
     section = build_section(
         (
-            Panel(np.array([(first, height), (0.0, height), (0.0, 0.0), (first, 0.0)]), layer, (1,)),
-            Panel(np.array([(first, 0.0), (whole, 0.0), (whole, height), (first, height)]), layer, (2,)),
+            Panel(
+                np.array([(first, height), (0.0, height), (0.0, 0.0), (first, 0.0)]), layer, (1,)
+            ),
+            Panel(
+                np.array([(first, 0.0), (whole, 0.0), (whole, height), (first, height)]),
+                layer,
+                (2,),
+            ),
             Panel(np.array([(first, 0.0), (first, height)]), layer, (1, -2)),
         )
     )
@@ -140,17 +166,23 @@ def test_batho_two_cells_by_hand():
 
 def test_reciprocity():
     """Maxwell: the extension due to a torque equals the twist due to a force."""
-    section = active_section(section_spec(uh60a_structure(), HostBlade()), ply("MFC_P1"), default_placement(4))
+    section = active_section(
+        section_spec(uh60a_structure(), HostBlade()), ply("MFC_P1"), default_placement(4)
+    )
     by_torque, by_force = respond(section, torque=1.0), respond(section, force=1.0)
     assert_allclose(by_torque.extension, by_force.twist_rate, rtol=1e-6)
-    assert_allclose(by_torque.curvature_y, respond(section, moments=(1.0, 0.0)).twist_rate, rtol=1e-6)
+    assert_allclose(
+        by_torque.curvature_y, respond(section, moments=(1.0, 0.0)).twist_rate, rtol=1e-6
+    )
 
 
 # Blade sections
 
 
 def blade(kind: str, share: float) -> SectionSpec:
-    return section_spec(uh60a_structure(), HostBlade("retrofit" if kind == "retrofit" else "new", share))
+    return section_spec(
+        uh60a_structure(), HostBlade("retrofit" if kind == "retrofit" else "new", share)
+    )
 
 
 def test_contour_and_calibration():
@@ -171,7 +203,16 @@ WORKED = [
     ("retrofit", 1.0, "MFC_P2", 1, WHOLE, 72357.0, -31.49),
     ("retrofit", 1.0, "PZT5H_strips", 1, WHOLE, 74883.9, -32.34),
     ("retrofit", 1.0, "AFC", 1, WHOLE, 70847.6, 32.76),
-    ("retrofit", 1.0, "PZT5H", 1, WHOLE, 74883.9, 0.0),  # An isotropic sheet induces no shear at any angle.
+    # An isotropic sheet induces no shear at any angle.
+    (
+        "retrofit",
+        1.0,
+        "PZT5H",
+        1,
+        WHOLE,
+        74883.9,
+        0.0,
+    ),
     ("new", 1.0, "MFC_P1", 4, WHOLE, 69760.0, 973.11),
     ("new", 0.5, "MFC_P1", 4, WHOLE, 34880.0, 904.96),
     ("new", 0.25, "MFC_P1", 2, WHOLE, 17440.0, 454.01),
@@ -182,7 +223,13 @@ WORKED = [
 
 @pytest.mark.parametrize(("kind", "share", "id", "plies", "chord", "stiffness", "moment"), WORKED)
 def test_worked_example(
-    kind: str, share: float, id: str, plies: int, chord: tuple[float, float], stiffness: float, moment: float
+    kind: str,
+    share: float,
+    id: str,
+    plies: int,
+    chord: tuple[float, float],
+    stiffness: float,
+    moment: float,
 ):
     """Indicative, 5 %: an independent code with its own assumptions for the passive walls."""
     section = active_section(blade(kind, share), ply(id), Placement(chord=chord, plies=plies))
@@ -195,7 +242,9 @@ def test_twist_is_nearly_proportional_to_sin_2phi():
     """45° twists most; 20° and 70° clearly less; mirrored angles twist the other way."""
 
     def moment(angle: float) -> float:
-        return actuation_moment(active_section(blade("retrofit", 1.0), ply("MFC_P1"), Placement(angle=angle)))
+        return actuation_moment(
+            active_section(blade("retrofit", 1.0), ply("MFC_P1"), Placement(angle=angle))
+        )
 
     best = moment(DIAGONAL)
     assert 0.4 * best < moment(math.radians(20.0)) < 0.9 * best

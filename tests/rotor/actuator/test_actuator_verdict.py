@@ -16,7 +16,14 @@ from numpy.testing import assert_allclose
 from rotor.__main__ import main
 from rotor.actuator.catalogue import actuators, engines_of, find_actuator
 from rotor.actuator.installation import change_limit, with_actuator_mass
-from rotor.actuator.optimum import STATIONS, ConditionPair, baseline, best_actuated, best_fixed, twisted
+from rotor.actuator.optimum import (
+    STATIONS,
+    ConditionPair,
+    baseline,
+    best_actuated,
+    best_fixed,
+    twisted,
+)
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.actuator.tables import verdict_table
 from rotor.actuator.verdict import Verdict, judge, verdict_details, verdict_sentence
@@ -45,10 +52,14 @@ def pair() -> ConditionPair:
 
 
 @cache
-def verdict(id: str = "MFC_P1", concept: str = "linear", kind: str = "new", share: float = 0.5) -> Verdict:
+def verdict(
+    id: str = "MFC_P1", concept: str = "linear", kind: str = "new", share: float = 0.5
+) -> Verdict:
     host = HostBlade() if kind == "retrofit" else HostBlade("new", share)
     placement = default_placement(2)
-    return judge(find_actuator(id), pair(), find_concept(concept), placement, host, against="best-fixed")
+    return judge(
+        find_actuator(id), pair(), find_concept(concept), placement, host, against="best-fixed"
+    )
 
 
 @pytest.mark.slow
@@ -87,7 +98,10 @@ def test_reached_against_brute_force():
 def test_more_attainable_twist_saves_more_power():
     linear = find_concept("linear")
     installed = verdict().installed
-    powers = [best_actuated(pair(), linear, installed, scale=share).power for share in (0.0, 0.1, 0.3, 1.0)]
+    powers = [
+        best_actuated(pair(), linear, installed, scale=share).power
+        for share in (0.0, 0.1, 0.3, 1.0)
+    ]
     assert all(a >= b - 0.5 for a, b in pairwise(powers))
     softer = replace(pair(), design=installed.on(pair().design))
     assert_allclose(powers[0], best_fixed(softer, linear).power, rtol=1e-6)
@@ -99,8 +113,13 @@ def test_a_softer_blade_costs_power_with_no_voltage():
     """Half the stiffness doubles the elastic 1/rev twist of flight at µ 0.3, which no fixed jig twist takes away."""
     judged = verdict()
     assert judged.stiffness_cost > 1000.0
-    assert f"the softer elastic blade costs {judged.stiffness_cost / 1e3:.1f} ± " in verdict_details(judged)
-    wave = [trims[1].elastic for trims in (judged.baseline.fixed.solutions, judged.resting.solutions)]
+    assert (
+        f"the softer elastic blade costs {judged.stiffness_cost / 1e3:.1f} ± "
+        in verdict_details(judged)
+    )
+    wave = [
+        trims[1].elastic for trims in (judged.baseline.fixed.solutions, judged.resting.solutions)
+    ]
     assert 1.5 < wave[1].first_harmonic / wave[0].first_harmonic < 2.5
 
 
@@ -117,12 +136,21 @@ def test_voltages_stay_in_range_and_make_the_change(kind: str, concept: str):
         assert_allclose(abs(b - a) / 2000.0 * twist, abs(change), rtol=1e-6, atol=1e-9)
 
 
-@pytest.mark.parametrize(("id", "kind"), [("MFC_P1", "new"), ("MFC_P1", "retrofit"), ("SMA_tube", "new")])
+@pytest.mark.parametrize(
+    ("id", "kind"), [("MFC_P1", "new"), ("MFC_P1", "retrofit"), ("SMA_tube", "new")]
+)
 def test_gross_less_costs_is_net_against_either_blade(id: str, kind: str):
     """Each part from trims of its own; another blade to count from moves gross, ideal and net by the same amount."""
     host = HostBlade() if kind == "retrofit" else HostBlade("new", 0.5)
     found = [
-        judge(find_actuator(id), pair(), find_concept("linear"), default_placement(2), host, against=against)
+        judge(
+            find_actuator(id),
+            pair(),
+            find_concept("linear"),
+            default_placement(2),
+            host,
+            against=against,
+        )
         for against in ("best-fixed", "same-blade")
     ]
     for judged in found:
@@ -130,13 +158,20 @@ def test_gross_less_costs_is_net_against_either_blade(id: str, kind: str):
         assert_allclose(judged.net_saving, net, atol=1e-6)
         assert_allclose(sum(part for _, part in judged.savings), net, atol=1e-6)
         assert judged.gross_saving <= judged.ideal_saving
-        driven = [with_actuator_mass(flown.design, judged.installed) for flown in judged.optimum.solutions]
+        driven = [
+            with_actuator_mass(flown.design, judged.installed) for flown in judged.optimum.solutions
+        ]
         power = np.mean([solve(design).power.total for design in driven]) + judged.drive.hold_power
         assert_allclose(judged.net_power, power, rtol=1e-6)
     built = np.mean([solve(design).power.total for design in pair().designs()])
     if kind == "retrofit":
         assert_allclose(found[0].bare_power, built, rtol=1e-9)
-    fixed = np.mean([solve(replace(d, twist=found[0].baseline.fixed_twist)).power.total for d in pair().designs()])
+    fixed = np.mean(
+        [
+            solve(replace(d, twist=found[0].baseline.fixed_twist)).power.total
+            for d in pair().designs()
+        ]
+    )
     for name in ("gross_saving", "ideal_saving", "net_saving"):
         best, same = (getattr(judged, name) for judged in found)
         assert_allclose(same - best, built - fixed, atol=0.5)
@@ -148,11 +183,15 @@ def test_fuel_by_hand():
     engines = engines_of(pair().design.aircraft)
     horse, pound = 745.699872, 0.45359237
     assert_allclose(3600.0 * engines.flow(2.0 * 552.6 * horse), 2.0 * 349.3 * pound, rtol=1e-9)
-    assert all(2.0 * 552.6 * horse < power < 2.0 * 1683.0 * horse for power in judged.reference_powers)
+    assert all(
+        2.0 * 552.6 * horse < power < 2.0 * 1683.0 * horse for power in judged.reference_powers
+    )
     slopes = [127.0 / 358.5 * pound / horse, 298.7 / 771.9 * pound / horse]
     assert judged.fuel_saving is not None
     assert slopes[0] < 3600.0 * judged.fuel_saving / judged.net_saving < slopes[1] * 1.000001
-    used, band, word = re.findall(r"Net fuel: \w+ ([\d.]+) ± ([\d.]+) kg/h: (\w+)", verdict_details(judged))[0]
+    used, band, word = re.findall(
+        r"Net fuel: \w+ ([\d.]+) ± ([\d.]+) kg/h: (\w+)", verdict_details(judged)
+    )[0]
     assert float(used) == pytest.approx(abs(3600.0 * judged.fuel_saving), abs=0.06)
     assert word == sureness(float(used), float(band), sourced=False) == "likely"
 
@@ -172,7 +211,10 @@ def test_required_twist_by_hand():
     root = pair().design.rotor.blade.root_cutout
     assert_allclose(judged.required, abs(second - first) * (1.0 - root), rtol=1e-9)
     assert judged.feasible == (judged.required <= judged.attainable)
-    assert f" the {math.degrees(judged.required):.1f}° needed from hover to µ 0.30 (" in verdict_details(judged)
+    assert (
+        f" the {math.degrees(judged.required):.1f}° needed from hover to µ 0.30 ("
+        in verdict_details(judged)
+    )
 
 
 def without_band(sentence: str) -> str:
@@ -193,7 +235,9 @@ def without_band(sentence: str) -> str:
                      ["(2 tubes a segment, new blade"], marks=pytest.mark.slow),
     ],
 )  # fmt: skip
-def test_the_sentence_agrees_with_the_numbers(choice: dict[str, Any], ending: str, details: list[str]):
+def test_the_sentence_agrees_with_the_numbers(
+    choice: dict[str, Any], ending: str, details: list[str]
+):
     judged = verdict(**choice)
     assert not judged.pays
     assert without_band(verdict_sentence(judged)).endswith(ending)
@@ -204,15 +248,22 @@ def test_the_sentence_is_one_line_of_numbers_that_add_up():
     judged = verdict()
     said = without_band(verdict_sentence(judged))
     gains, costs = (float(number) for number in re.findall(r"([0-9.]+) kW", said))
-    assert said == f"Saves {gains} kW over the best fixed blade and costs {costs} kW, so this ply does not pay."
+    assert (
+        said
+        == f"Saves {gains} kW over the best fixed blade and costs {costs} kW, so this ply does not pay."
+    )
     assert_allclose(1e3 * (gains - costs), judged.net_saving, atol=101.0)
     buildable = tuple(replace(limit, ok=True) for limit in judged.limits)
     first, second = judged.loaded_powers
     more = judged.net_power + 2500.0 - judged.reference_power
-    good = replace(judged, reference_powers=tuple(x + more for x in judged.reference_powers), limits=buildable)
+    good = replace(
+        judged, reference_powers=tuple(x + more for x in judged.reference_powers), limits=buildable
+    )
     assert without_band(verdict_sentence(good)).endswith(" kW, a net saving of 2.5 kW.")
     stopped = tuple(replace(limit, ok=limit.name != "temperature") for limit in judged.limits)
-    assert verdict_sentence(replace(good, limits=stopped)).endswith("but it cannot be built (temperature).")
+    assert verdict_sentence(replace(good, limits=stopped)).endswith(
+        "but it cannot be built (temperature)."
+    )
     even = replace(good, loaded_powers=(first + 2500.0, second + 2500.0))
     assert without_band(verdict_sentence(even)).endswith("this ply does not pay.")
 
@@ -223,7 +274,9 @@ def test_limit_for_the_optimiser():
     design = pair().designs()[1]
     reference = find_concept("linear").twist([math.radians(-20.0)])
     limit = change_limit(judged.installed, reference)
-    found = run_search(Search(design, find_concept("linear"), limits=Limits(change=limit), starts=1, band=False))
+    found = run_search(
+        Search(design, find_concept("linear"), limits=Limits(change=limit), starts=1, band=False)
+    )
     root = design.rotor.blade.root_cutout
     law = find_concept("linear").twist(found.best.parameters)
     change = float(np.diff(law([root, 1.0]) - reference([root, 1.0]))[0])
@@ -241,7 +294,8 @@ def test_table_of_verdicts():
     for row in table.rows:
         ideal, *parts, net = (float(row[k].partition(" ± ")[0]) for k in columns)
         assert [" ± " in row[k] for k in columns] == [
-            name != "drive" and float(row[k].split()[0]) != 0.0 for name, k in zip(names, columns, strict=True)
+            name != "drive" and float(row[k].split()[0]) != 0.0
+            for name, k in zip(names, columns, strict=True)
         ]
         assert ideal >= parts[0]  # Free twist saves most, against the same blade.
         assert_allclose(sum(parts), net, atol=0.26)  # Each is rounded to 0.1 kW.

@@ -14,14 +14,23 @@ from numpy.testing import assert_allclose
 from rotor import make_design, solve
 from rotor.actuator import try_actuator
 from rotor.actuator.optimum import ConditionPair, best_actuated
-from rotor.actuator.pay import WANTED_SHARE, BreakEven, break_even, other_stroke, pay_sentence, with_mass
+from rotor.actuator.pay import (
+    WANTED_SHARE,
+    BreakEven,
+    break_even,
+    other_stroke,
+    pay_sentence,
+    with_mass,
+)
 from rotor.actuator.tables import pay_table
 from rotor.design import LinearTwist
 from rotor.optimisation.doubt import difference_doubt
 
 
 def pair(rotor: str = "uh60a") -> ConditionPair:
-    return ConditionPair(make_design(rotor=rotor, inflow="drees", elements=16, azimuths=36), (0.0, 0.3))
+    return ConditionPair(
+        make_design(rotor=rotor, inflow="drees", elements=16, azimuths=36), (0.0, 0.3)
+    )
 
 
 @cache
@@ -33,8 +42,14 @@ def flown(even: BreakEven, k: int, mass: float) -> float:
     """Mean power at point k with a mass on the blades, by trims from nothing."""
     powers: list[float] = []
     span = 1.0 - even.pair.design.rotor.blade.root_cutout
-    for design, part in zip(even.pair.designs(), (0.0, math.copysign(even.twists[k] / span, even.change)), strict=True):
-        powers.append(solve(with_mass(replace(design, twist=LinearTwist(even.rates[k] + part)), mass)).power.total)
+    for design, part in zip(
+        even.pair.designs(), (0.0, math.copysign(even.twists[k] / span, even.change)), strict=True
+    ):
+        powers.append(
+            solve(
+                with_mass(replace(design, twist=LinearTwist(even.rates[k] + part)), mass)
+            ).power.total
+        )
     return float(np.mean(powers))
 
 
@@ -55,20 +70,30 @@ def test_another_stroke_of_an_actuator_counts_as_its_verdict_counts():
         judged = try_actuator("MFC_P1", design, against=against)
         other, mass, own = other_stroke(judged), judged.installed.masses.aircraft, judged.attainable
         assert other.net(own, mass) == pytest.approx(judged.net_saving, abs=0.1)
-        assert other.net(0.0, 0.0) == pytest.approx(judged.reference_power - judged.resting.power, abs=0.1)
-        assert other.net(own, other.mass_allowed(own)) == pytest.approx(min(other.net(own, 0.0), 0.0), abs=0.1)
+        assert other.net(0.0, 0.0) == pytest.approx(
+            judged.reference_power - judged.resting.power, abs=0.1
+        )
+        assert other.net(own, other.mass_allowed(own)) == pytest.approx(
+            min(other.net(own, 0.0), 0.0), abs=0.1
+        )
         assert judged.mass_allowed == pytest.approx(other.mass_allowed(own), abs=0.1)
         assert judged.net_band == pytest.approx(other.band(own, mass), rel=1e-6)
         assert other.twist_for(1e4) is None
         twice = replace(judged.installed, shapes=2.0 * judged.installed.shapes)
         twice = replace(twice, rest_shapes=2.0 * twice.rest_shapes)
-        found = best_actuated(judged.baseline.pair, judged.baseline.concept, twice, starts=[judged.resting.values])
-        assert other.net(2.0 * own, 0.0) == pytest.approx(judged.reference_power - found.power, abs=20.0)
+        found = best_actuated(
+            judged.baseline.pair, judged.baseline.concept, twice, starts=[judged.resting.values]
+        )
+        assert other.net(2.0 * own, 0.0) == pytest.approx(
+            judged.reference_power - found.power, abs=20.0
+        )
         fixed, built = judged.baseline.fixed.solutions, map(solve, judged.baseline.pair.designs())
         from_trims = fixed if against == "best-fixed" else tuple(built)
         exact = difference_doubt(judged.baseline.pair.shares, found.solutions, from_trims)
         assert other.band(2.0 * own, 0.0) == pytest.approx(exact and exact.change_band, rel=0.01)
-        still = difference_doubt(judged.baseline.pair.shares, judged.resting.solutions or from_trims, from_trims)
+        still = difference_doubt(
+            judged.baseline.pair.shares, judged.resting.solutions or from_trims, from_trims
+        )
         assert other.band(0.0, 0.0) == pytest.approx(still and still.change_band, rel=0.01, abs=1.0)
         paid = 0.5 * float(other.saved[0] + other.saved[-1]) / other.per_kg
         if paid > 0.0:
@@ -80,7 +105,9 @@ def test_another_stroke_of_an_actuator_counts_as_its_verdict_counts():
 def test_mass_costs_what_momentum_theory_says():
     """ΔP/P_i ≈ 1.5 Δm/m, and a little for profile and tail."""
     even = line()
-    solutions = [solve(replace(design, twist=LinearTwist(even.rates[8]))) for design in even.pair.designs()]
+    solutions = [
+        solve(replace(design, twist=LinearTwist(even.rates[8]))) for design in even.pair.designs()
+    ]
     induced = float(np.mean([solution.power.induced for solution in solutions]))
     mass = float(even.masses[-1])
     expected = 1.5 * induced * mass / even.pair.design.condition.mass
@@ -95,7 +122,9 @@ def test_a_requirement_just_pays():
     assert even.net(needed.twist, needed.mass, needed.drive) == pytest.approx(0.0, abs=1e-6)
     assert even.mass_allowed(needed.twist) > needed.mass  # Without a drive.
     assert even.mass_allowed(needed.twist, 2.0 * even.ideal_saving) == 0.0
-    assert pay_sentence(even).startswith(f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ ")
+    assert pay_sentence(even).startswith(
+        f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ "
+    )
 
 
 def test_a_stand_carries_mass_as_thrust():
@@ -104,7 +133,11 @@ def test_a_stand_carries_mass_as_thrust():
     before, after = (solve(one).require() for one in (design, with_mass(design, 10.0)))
     newtons = [design.thrust_unit * one.ct for one in (before, after)]
     assert newtons[1] - newtons[0] == pytest.approx(98.07, rel=1e-3)
-    given = replace(design.condition.stand, ct_over_sigma=None, collective=0.1) if design.condition.stand else None
+    given = (
+        replace(design.condition.stand, ct_over_sigma=None, collective=0.1)
+        if design.condition.stand
+        else None
+    )
     with pytest.raises(ValueError, match="give a thrust instead"):
         with_mass(replace(design, condition=replace(design.condition, stand=given)), 10.0)
 
@@ -116,13 +149,17 @@ def test_where_twist_saves_nothing_no_actuator_pays():
     assert pay_sentence(flat).startswith("No actuator pays: unlimited twist saves")
     table = pay_table([even, flat])
     assert table.rows[1][-1] == "–"
-    assert float(table.rows[0][-1]) == pytest.approx(even.mass_allowed(even.requirement.twist), abs=0.06)
+    assert float(table.rows[0][-1]) == pytest.approx(
+        even.mass_allowed(even.requirement.twist), abs=0.06
+    )
 
 
 @pytest.mark.slow
 def test_command(answer: Callable[..., Any], tmp_path: Path):
     drawn = tmp_path / "line.svg"
-    found = answer("actuator", "--rotor", "s61", "--inflow", "drees", "--what-would-pay", "--plot", str(drawn))
+    found = answer(
+        "actuator", "--rotor", "s61", "--inflow", "drees", "--what-would-pay", "--plot", str(drawn)
+    )
     assert found["rotor"].startswith("Sikorsky S-61")
     assert found["message"].startswith("Pays if it twists")
     assert found["pays_from"]["twist_deg"] < found["optima_apart_deg"]

@@ -43,9 +43,14 @@ def gusty(gust: rotor.Gust | None, mu: float, **asked: Any) -> Design:
 @pytest.mark.parametrize("mu", [0.0, 0.03, 0.2])
 def test_sinking_air_is_a_climb(mu: float):
     """Level flight in air that sinks at 3 m/s: same velocities at the blades, same power, same figure of merit."""
-    level, climbing = rotor.solve(gusty(rotor.Gust(-3.0), mu)), rotor.solve(gusty(None, mu, climb_m_s=3.0))
+    level, climbing = (
+        rotor.solve(gusty(rotor.Gust(-3.0), mu)),
+        rotor.solve(gusty(None, mu, climb_m_s=3.0)),
+    )
     assert_same_trim(level.require(), climbing.require())
-    assert level.figure_of_merit == (None if mu else pytest.approx(climbing.figure_of_merit, rel=SAME))
+    assert level.figure_of_merit == (
+        None if mu else pytest.approx(climbing.figure_of_merit, rel=SAME)
+    )
     seen = [Analysis(solution).linear.elements for solution in (level, climbing)]
     for name in ("u_t", "u_p", "u_r"):
         assert_allclose(*(getattr(elements, name) for elements in seen), rtol=0.0, atol=1e-15)
@@ -57,9 +62,12 @@ def test_energy_closes_in_a_gust_and_its_power_has_its_exact_gradient(inflow: st
     found = rotor.solve(at).require()
     power = found.power
     assert_allclose(power.shaft, power.main_rotor, rtol=1e-10)
-    assert abs(power.climb + at.condition.weight) > 1e3  # Of the uniform part alone it is W times 1 m/s.
+    # Of the uniform part alone it is W times 1 m/s.
+    assert abs(power.climb + at.condition.weight) > 1e3
     gradient, step = power_gradient(found), 0.02
-    ahead, behind = (rotor.solve(at.with_twist(f"linear:{-12.0 + s * step!r}")).power.total for s in (1.0, -1.0))
+    ahead, behind = (
+        rotor.solve(at.with_twist(f"linear:{-12.0 + s * step!r}")).power.total for s in (1.0, -1.0)
+    )
     slope = (ahead - behind) / (2.0 * math.radians(step))
     assert slope == pytest.approx(float(gradient.by_element @ (gradient.r - 0.75)), rel=2e-4)
 
@@ -86,18 +94,24 @@ def test_lift_of_unsteady_flow_is_that_of_sears(per_rev: int):
     for unsteady in (True, False):
         at = replace(still, models=replace(still.models, unsteady=unsteady))
         x = Analysis(rotor.solve(at).require()).linear.point.x
-        problems = [build_problem(replace(at, gust=gust)) for gust in (Wave(0.0, per_rev, 0.1), None)]
+        problems = [
+            build_problem(replace(at, gust=gust)) for gust in (Wave(0.0, per_rev, 0.1), None)
+        ]
         blown, calm = (evaluate(s, s.grid, x).forces[FZ] for s in map(flight_system, problems))
         lift.append((blown - calm) @ np.exp(-1j * per_rev * problems[0].disk.psi))
     k = per_rev * problems[0].half_chord / problems[0].disk.r
     response = (lift[0] / lift[1] * np.exp(0.5j * k))[8:]
     assert np.all(k[8:] < 0.7)
     assert np.all(np.abs(np.abs(response) - j0(k[8:])) < 0.14 * k[8:] ** 2)
-    assert_allclose(np.angle(response), 0.0, atol=0.008)  # Without rate, or with the value at the quarter chord: k/2.
+    # Without rate, or with the value at the quarter chord: k/2.
+    assert_allclose(np.angle(response), 0.0, atol=0.008)
 
 
 def test_hover_has_a_ring_of_gust_but_none_that_follows_the_azimuth():
-    with pytest.raises(ValueError, match=r"Wave\(.*\) changes with azimuth, and hover has one azimuth: give a speed"):
+    with pytest.raises(
+        ValueError,
+        match=r"Wave\(.*\) changes with azimuth, and hover has one azimuth: give a speed",
+    ):
         rotor.solve(gusty(Wave(), 0.0))
     ring = Wave(per_rev=0)
     found, near = (rotor.solve(gusty(ring, mu)).require() for mu in (0.0, 1e-4))
@@ -109,7 +123,9 @@ def test_hover_has_a_ring_of_gust_but_none_that_follows_the_azimuth():
 
 
 def test_what_has_no_place_for_a_gust_says_so():
-    with pytest.raises(ValueError, match=r"Gust\(uniform=2.0\): the document's equations are those of still air"):
+    with pytest.raises(
+        ValueError, match=r"Gust\(uniform=2.0\): the document's equations are those of still air"
+    ):
         gusty(rotor.Gust(2.0), 0.2, preset="thesis")
     with pytest.raises(ValueError, match=r"design files have no Gust\(uniform=2.0\)"):
         gusty(rotor.Gust(2.0), 0.2).to_dict()

@@ -41,7 +41,9 @@ def models() -> Iterator[None]:
     assert isinstance(like, LinearInflow)
     with pytest.MonkeyPatch.context() as patch:
         for name in AZIMUTHS:
-            patch.setitem(INFLOW_MODELS, name, OwnGrid(name, name, "", like.longitudinal, like.lateral))
+            patch.setitem(
+                INFLOW_MODELS, name, OwnGrid(name, name, "", like.longitudinal, like.lateral)
+            )
         yield
 
 
@@ -119,7 +121,11 @@ class TestFields:
         assert trim.solution.disk.alpha is elements.alpha
 
     def test_at_the_azimuths_of_the_trim_they_are_its_own(self, memoryless: Solution):
-        e, disk, step = Analysis(memoryless).linear.elements, memoryless.disk, 120 // AZIMUTHS["few azimuths"]
+        e, disk, step = (
+            Analysis(memoryless).linear.elements,
+            memoryless.disk,
+            120 // AZIMUTHS["few azimuths"],
+        )
         for name in ("theta", "u_t", "u_p", "induced", "alpha", "mach", "cl", "cd"):
             assert_allclose(getattr(disk, name)[:, ::step], getattr(e, name), atol=1e-10)
         assert_allclose(disk.dct[:, ::step], e.fz, atol=1e-12)
@@ -166,15 +172,22 @@ class TestAreas:
     def test_reverse_flow_is_the_circle(self, mu: float):
         """½∫(µ² sin²ψ − r_root²)dψ/π; without the swirl, which widens it."""
         solution = solve(with_switches(heavy(mu=mu), ("swirl",))).require()
-        along, root = mu * math.cos(solution.controls.shaft_tilt), solution.design.rotor.blade.root_cutout
+        along, root = (
+            mu * math.cos(solution.controls.shaft_tilt),
+            solution.design.rotor.blade.root_cutout,
+        )
         sine = np.sin(np.linspace(0.0, math.pi, 20001))
         expected = 0.5 * np.maximum((along * sine) ** 2 - root**2, 0.0).mean()
         assert_allclose(solution.reverse_flow_area, expected, rtol=0.03)
 
-    @pytest.mark.parametrize(("mu", "mass", "near"), [(0.2, 12e3, 0.1), (FAST, HEAVY, 0.04), (FAST, 11e3, 0.04)])
+    @pytest.mark.parametrize(
+        ("mu", "mass", "near"), [(0.2, 12e3, 0.1), (FAST, HEAVY, 0.04), (FAST, 11e3, 0.04)]
+    )
     def test_stall_is_that_of_a_fine_grid(self, mu: float, mass: float, near: float):
         design = heavy("pitt-peters", mu).at(mass_kg=mass)
-        fine = solve(replace(design, models=replace(design.models, elements=320, azimuths=360))).require()
+        fine = solve(
+            replace(design, models=replace(design.models, elements=320, azimuths=360))
+        ).require()
         coarse = solve(heavy(mu=mu).at(mass_kg=mass)).require()
         assert fine.stalled_area > 0.002
         assert_allclose(coarse.stalled_area, fine.stalled_area, rtol=near, atol=2e-4)

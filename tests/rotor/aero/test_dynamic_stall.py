@@ -7,7 +7,15 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.aero.dynamic_stall import DECAYING, LINKS, SEPARATION, VORTEX, StallData, empty_lags, stall_states
+from rotor.aero.dynamic_stall import (
+    DECAYING,
+    LINKS,
+    SEPARATION,
+    VORTEX,
+    StallData,
+    empty_lags,
+    stall_states,
+)
 from rotor.airfoil.sections import load_section
 from rotor.airfoil.stall_onset import (
     LAG_PRESSURE,
@@ -47,8 +55,13 @@ def remembered(x: Array, mach: Array, own: StallData) -> LagFactors:
     n = len(x)
     linked, decays, factors, places = room = empty_lags(1, n)
     stall_states(0, x, mach, own, True, np.empty((3, n)), room, np.empty((4, n)))
-    left, right = (np.repeat(np.eye(rows, columns)[:, :, None, None], n, axis=3) for rows, columns in ((3, 4), (2, 2)))
-    return LagFactors(left, Lags(LINKS, DECAYING, linked, np.ones((1, n)), decays, factors, places), right)
+    left, right = (
+        np.repeat(np.eye(rows, columns)[:, :, None, None], n, axis=3)
+        for rows, columns in ((3, 4), (2, 2))
+    )
+    return LagFactors(
+        left, Lags(LINKS, DECAYING, linked, np.ones((1, n)), decays, factors, places), right
+    )
 
 
 @pytest.mark.parametrize("name", ["naca0012", "sc1095", "sc1094r8"])
@@ -89,7 +102,9 @@ def test_a_section_at_rest_has_its_static_data(degrees: float):
     assert np.abs(followed(*still, data(0.03, 0.6))[0]).max() < 1e-12
 
 
-def _marched(x: Array, mach: Array, own: StallData, turns: int = 4, fine: int = 4800) -> tuple[Array, Array]:
+def _marched(
+    x: Array, mach: Array, own: StallData, turns: int = 4, fine: int = 4800
+) -> tuple[Array, Array]:
     """f″ and C_nᵛ by explicit steps in time from rest, on the last of some turns."""
     numbers, steps = own.numbers[0], fine // len(x)
     around = np.append(np.arange(len(x)), len(x))
@@ -116,10 +131,17 @@ def _marched(x: Array, mach: Array, own: StallData, turns: int = 4, fine: int = 
                     history.pop(0)
                 late = history[0][1]
             feed = rows[SLOPE, k] * xs[k] * (1.0 - 0.25 * (1.0 + math.sqrt(f)) ** 2)
-            cv += gate * (1.0 - late) * (feed - before if turn + k else 0.0) - cv * step[k] / rows[LAG_VORTEX, k]
+            cv += (
+                gate * (1.0 - late) * (feed - before if turn + k else 0.0)
+                - cv * step[k] / rows[LAG_VORTEX, k]
+            )
             before = feed
             xf += (xs[k] - xf) * step[k] / rows[LAG_PRESSURE, k]
-            f += (np.interp(xf, angles, tables[round(float(ms[k]), 2)]) - f) * step[k] / rows[LAG_SEPARATION, k]
+            f += (
+                (np.interp(xf, angles, tables[round(float(ms[k]), 2)]) - f)
+                * step[k]
+                / rows[LAG_SEPARATION, k]
+            )
             travelled += step[k]
             found[:, k] = f, cv
     return found[0, ::steps], found[1, ::steps]
@@ -131,7 +153,11 @@ def _separation(angles: Array, mach: float) -> Array:
     static = TABLE(alpha, mach)
     force = static.cl * np.cos(alpha) + static.cd * np.sin(alpha)
     slope = float(np.interp(mach, np.arange(21) / 20.0, ONSET.numbers[SLOPE]))
-    ratio = np.where(np.abs(angles) < math.radians(1.0), 1.0, force / np.where(angles == 0.0, 1.0, slope * angles))
+    ratio = np.where(
+        np.abs(angles) < math.radians(1.0),
+        1.0,
+        force / np.where(angles == 0.0, 1.0, slope * angles),
+    )
     return np.clip((2.0 * np.sqrt(np.maximum(ratio, 0.25)) - 1.0) ** 2, 0.02, 1.0)
 
 
@@ -159,12 +185,17 @@ def test_derivatives_are_exact(azimuths: int, degrees: float):
 @pytest.mark.parametrize("azimuths", [24, 120])
 @pytest.mark.parametrize("degrees", [3.0, 10.0])
 def test_the_transposed_of_the_derivatives_is_exact(azimuths: int, degrees: float):
-    memory, random = remembered(*around(azimuths, degrees), data(0.04, 0.6)), np.random.default_rng(2)
+    memory, random = (
+        remembered(*around(azimuths, degrees), data(0.04, 0.6)),
+        np.random.default_rng(2),
+    )
     fields, weights = random.normal(size=(2, 1, azimuths)), random.normal(size=(3, 1, azimuths))
     forces = memory.times(dict(enumerate(fields)))
     back = memory.transposed(weights)
     assert np.sum(back * fields) == pytest.approx(np.sum(weights * forces), rel=1e-12)
     waves = wave_grid(5, azimuths)
     by_inputs, means = memory.by_inputs(waves), (forces[:, 0] @ waves.mean)
-    found = sum(memory.by_channel(by_inputs, c)[:, :, 0] @ field[0] for c, field in enumerate(fields))
+    found = sum(
+        memory.by_channel(by_inputs, c)[:, :, 0] @ field[0] for c, field in enumerate(fields)
+    )
     assert_allclose(found, means, rtol=0, atol=1e-12 * np.abs(means).max())

@@ -22,7 +22,9 @@ STATE = TrimState(0.17, 0.03, -0.09, 0.08, 0.06, -0.02, 0.01, 0.012)
 def problem(preset: str = "flight", mu: float = 0.3, **models: object) -> Problem:
     """A problem with prescribed inflow, so that a pass needs no induced field."""
     design = make_design(preset=preset, mu=mu, twist="segments:-14,-6@0.6")
-    prescribed = replace(design.models, inflow="pitt-peters" if preset == "flight" else design.models.inflow)
+    prescribed = replace(
+        design.models, inflow="pitt-peters" if preset == "flight" else design.models.inflow
+    )
     return build_problem(replace(design, models=replace(prescribed, **models)))
 
 
@@ -69,10 +71,13 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
         parts = []
         for name in (inner, outer):
             section = load_installed(name)
-            sweep = math.radians(20.0) if axial and disk.r[i] > 0.965 else 0.0  # Half a chord beyond the kink.
+            # Half a chord beyond the kink.
+            sweep = math.radians(20.0) if axial and disk.r[i] > 0.965 else 0.0
             normal = np.hypot(u_t[i] * math.cos(sweep) - along * math.sin(sweep), u_p[i])
             cl, first, last = (
-                getattr(section.table(angle[i] - section.incidence_offset, normal * p.tip_mach), name)
+                getattr(
+                    section.table(angle[i] - section.incidence_offset, normal * p.tip_mach), name
+                )
                 for angle, name in ((alpha, "cl"), (front, "cd"), (math.pi - front, "cd"))
             )
             parts.append((cl, share[i] * first + (1.0 - share[i]) * last))
@@ -82,8 +87,12 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
         drag = disk.half_solidity[i] * whole[i] * cd
         assert_allclose(elements.cl[i], cl, rtol=1e-9, atol=1e-10)
         assert_allclose(elements.cd[i], cd, rtol=1e-9, atol=1e-10)
-        assert_allclose(elements.fz[i], lift * np.cos(phi[i]) - drag * u_p[i], rtol=1e-9, atol=1e-12)
-        assert_allclose(elements.fx[i], lift * np.sin(phi[i]) + drag * u_t[i], rtol=1e-9, atol=1e-12)
+        assert_allclose(
+            elements.fz[i], lift * np.cos(phi[i]) - drag * u_p[i], rtol=1e-9, atol=1e-12
+        )
+        assert_allclose(
+            elements.fx[i], lift * np.sin(phi[i]) + drag * u_t[i], rtol=1e-9, atol=1e-12
+        )
         assert_allclose(elements.fr[i], drag * radial, rtol=1e-9, atol=1e-12)
 
 
@@ -104,7 +113,9 @@ def test_the_residuals_are_sums_over_the_elements():
     p = problem(mu=0.2)
     point, e = point_at(p, STATE), elements_at(p, STATE)
     total, own = disk_sums(p.disk, e), sums_at(point)
-    assert_allclose((own.thrust, own.drag, own.torque), (total.thrust, total.drag, total.torque), rtol=1e-12)
+    assert_allclose(
+        (own.thrust, own.drag, own.torque), (total.thrust, total.drag, total.torque), rtol=1e-12
+    )
     cos, sin = math.cos(STATE.shaft_tilt), math.sin(STATE.shaft_tilt)
     moment = p.arm * p.disk.dr @ e.fz / len(p.disk.psi)
     flap = p.flap
@@ -112,14 +123,17 @@ def test_the_residuals_are_sums_over_the_elements():
     expected = {
         "vertical": total.thrust * cos + total.drag * sin - p.weight,
         "forward": total.thrust * sin - total.drag * cos - p.drag,
-        "coning": moment.sum() - (flap.frequency_squared * STATE.coning + flap.weight) / flap.load_gain,
+        "coning": moment.sum()
+        - (flap.frequency_squared * STATE.coning + flap.weight) / flap.load_gain,
         "flap_1c": 2.0 * moment @ p.disk.cos - stiffness * STATE.flap_1c,
         "flap_1s": 2.0 * moment @ p.disk.sin - stiffness * STATE.flap_1s,
         "momentum": 2.0 * STATE.lambda0 * e.flow.speed - total.thrust,
     }
     rows = point.system.structure.equations
     for name, value in expected.items():
-        assert_allclose(point.residual[rows[name]], value, rtol=1e-12, atol=1e-12 * p.weight, err_msg=name)
+        assert_allclose(
+            point.residual[rows[name]], value, rtol=1e-12, atol=1e-12 * p.weight, err_msg=name
+        )
 
 
 # The compiled loops at their borders

@@ -21,7 +21,12 @@ from rotor.support.arrays import Array
 R = np.linspace(0.13, 1.0, 9)
 PSI = 2.0 * np.pi * np.arange(24) / 24
 LINEAR = {model.name: model for model in MODELS}
-WAKES = [DiskFlow(0.002, 0.0, 0.055), DiskFlow(0.1, 0.01, 0.03), DiskFlow(0.3, 0.04, 0.011), DiskFlow(0.4, -0.01, 0.02)]
+WAKES = [
+    DiskFlow(0.002, 0.0, 0.055),
+    DiskFlow(0.1, 0.01, 0.03),
+    DiskFlow(0.3, 0.04, 0.011),
+    DiskFlow(0.4, -0.01, 0.02),
+]
 DISK = build_disk(make_design().rotor, elements=12, azimuths=24)
 
 
@@ -38,7 +43,9 @@ def test_glauert_closes_and_slope_is_exact(ct: float, mu_x: float, mu_z: float):
     inflow, slope = glauert_inflow(ct, mu_x, mu_z)
     assert_allclose(2.0 * inflow * math.hypot(mu_x, mu_z + inflow), ct, rtol=1e-12)
     h = 1e-6 * ct
-    difference = (glauert_inflow(ct + h, mu_x, mu_z)[0] - glauert_inflow(ct - h, mu_x, mu_z)[0]) / (2.0 * h)
+    difference = (glauert_inflow(ct + h, mu_x, mu_z)[0] - glauert_inflow(ct - h, mu_x, mu_z)[0]) / (
+        2.0 * h
+    )
     assert_allclose(slope, difference, rtol=1e-6)
     assert_allclose(glauert_inflow(-ct, mu_x, -mu_z), (-inflow, slope), rtol=1e-14)
 
@@ -79,7 +86,9 @@ def test_the_mean_is_lambda0_and_slopes_are_exact(name: str, wake: DiskFlow):
 
 def gradient(name: str, wake: DiskFlow) -> tuple[float, float]:
     """(k_x, k_y) read off the field at the disk edge over the tail, ψ = 0, and at ψ = 90°."""
-    field = LINEAR[name].field(np.array([1.0]), waves_at(3, np.array([0.0, 0.5 * math.pi])), wake)[0]
+    field = LINEAR[name].field(np.array([1.0]), waves_at(3, np.array([0.0, 0.5 * math.pi])), wake)[
+        0
+    ]
     return field[0, 0] / wake.lambda0 - 1.0, field[0, 1] / wake.lambda0 - 1.0
 
 
@@ -107,9 +116,15 @@ def test_a_trim_has_the_first_harmonics_of_its_model():
     """λ_i = λ0 (1 + k_x r cos ψ + k_y r sin ψ), eq. (2.29)."""
     solution = solve(make_design(mu=0.2, inflow="drees"))
     disk, state = solution.disk, solution.controls
-    wake = DiskFlow(0.2 * math.cos(state.shaft_tilt), 0.2 * math.sin(state.shaft_tilt), state.lambda0)
-    for wave, strength in zip((np.cos(disk.psi), np.sin(disk.psi)), gradient("drees", wake), strict=True):
-        assert_allclose(2.0 * (disk.induced * wave).mean(axis=1), state.lambda0 * strength * disk.r, atol=1e-9)
+    wake = DiskFlow(
+        0.2 * math.cos(state.shaft_tilt), 0.2 * math.sin(state.shaft_tilt), state.lambda0
+    )
+    for wave, strength in zip(
+        (np.cos(disk.psi), np.sin(disk.psi)), gradient("drees", wake), strict=True
+    ):
+        assert_allclose(
+            2.0 * (disk.induced * wave).mean(axis=1), state.lambda0 * strength * disk.r, atol=1e-9
+        )
 
 
 def local_momentum(load: Array, wake: DiskFlow) -> Array:
@@ -122,11 +137,15 @@ def local_momentum(load: Array, wake: DiskFlow) -> Array:
 
 def test_local_momentum_of_known_loads():
     """d = 4λ²r (2.24): the load of a uniform inflow λ, with V = λ0 = λ, answers that inflow."""
-    assert_allclose(local_momentum(4.0 * 0.06**2 * DISK.r, DiskFlow(0.0, 0.0, 0.06)), 0.06, rtol=1e-14)
+    assert_allclose(
+        local_momentum(4.0 * 0.06**2 * DISK.r, DiskFlow(0.0, 0.0, 0.06)), 0.06, rtol=1e-14
+    )
     # p = C_T everywhere, d = 2 r p: λ0 of eq. (2.30) and the gradient 15π/32 tan(χ/2) on it.
     ct = 0.0065
     lambda0, _ = glauert_inflow(ct, 0.2, 0.01)
     wake = DiskFlow(0.2, 0.01, lambda0)
     chi = math.atan2(wake.mu_x, wake.axial)
-    expected = lambda0 * (1.0 + 15.0 * math.pi / 32.0 * math.tan(chi / 2.0) * np.outer(DISK.r, DISK.cos))
+    expected = lambda0 * (
+        1.0 + 15.0 * math.pi / 32.0 * math.tan(chi / 2.0) * np.outer(DISK.r, DISK.cos)
+    )
     assert_allclose(local_momentum(2.0 * DISK.r * ct, wake), expected, rtol=1e-12)

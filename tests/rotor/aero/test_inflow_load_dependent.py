@@ -36,7 +36,9 @@ def answer(problem: Problem, point: Point, elements: BladeElements) -> Array:
         (mean,) = problem.inflow_terms.shapes().values()
         return mean[:, None] + nodes.field(point.forces[nodes.force].ravel()).reshape(disk.shape)
     along, through = problem.design.in_disk_axes(state.shaft_tilt)
-    followed = problem.inflow_terms.follow(DiskFlow(along, through, state.lambda0), through, sees_tilt=True)
+    followed = problem.inflow_terms.follow(
+        DiskFlow(along, through, state.lambda0), through, sees_tilt=True
+    )
     gradient = followed.atoms["lambda0 kx"][0] * np.outer(disk.r, disk.cos)
     return followed.live[GAIN, "gain"][0][:, None] * elements.fz + gradient
 
@@ -56,12 +58,19 @@ def test_the_converged_inflow_is_the_response_of_the_model(inflow: str, mu: floa
     expected = answer(problem, Analysis(solution).linear.point, Analysis(solution).linear.elements)
     if problem.air.joined is not None:
         expected = expected + problem.air.joined[0][:, None]
-    assert_allclose(Analysis(solution).linear.elements.induced, expected, atol=1.1e-8 * solution.controls.lambda0)
+    assert_allclose(
+        Analysis(solution).linear.elements.induced,
+        expected,
+        atol=1.1e-8 * solution.controls.lambda0,
+    )
     assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=1e-9)
 
 
 @pytest.mark.parametrize("inflow", LOAD_DEPENDENT)
 def test_twist_changes_induced_power(inflow: str):
     """The point of it all: 5–9 % of total power over 0…−20° (linear models: induced power to 1 % the same)."""
-    induced = [solve(design_of(inflow, 0.2, f"linear:{rate}")).require().power.induced for rate in (0, -8, -20)]
+    induced = [
+        solve(design_of(inflow, 0.2, f"linear:{rate}")).require().power.induced
+        for rate in (0, -8, -20)
+    ]
     assert np.ptp(induced) > 0.05 * min(induced)

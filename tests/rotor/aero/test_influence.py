@@ -78,10 +78,20 @@ def pieces(course: WakeCourse, circulation: Array, azimuth: int) -> Iterator[Pie
     for k in range(4):  # One step of 45° is the near wake, in four pieces.
         middle = (k + 0.5) / 4.0
         for e in range(LINE.panels + 1):
-            yield node(k / 4.0, e), node((k + 1) / 4.0, e), shed(middle, e - 1) - shed(middle, e), None
+            yield (
+                node(k / 4.0, e),
+                node((k + 1) / 4.0, e),
+                shed(middle, e - 1) - shed(middle, e),
+                None,
+            )
         for i in panels:
             if k:
-                yield node(k / 4.0, i), node(k / 4.0, i + 1), shed(middle, i) - shed(middle - 0.25, i), LEAST
+                yield (
+                    node(k / 4.0, i),
+                    node(k / 4.0, i + 1),
+                    shed(middle, i) - shed(middle - 0.25, i),
+                    LEAST,
+                )
             else:
                 half = [0.5 * (node(0, e) + node(0.25, e)) for e in (i, i + 1)]
                 yield half[0], half[1], shed(middle, i) - shed(0, i), None
@@ -91,17 +101,31 @@ def pieces(course: WakeCourse, circulation: Array, azimuth: int) -> Iterator[Pie
     borders, turns = (0, 3, 6), 2 * LINE.azimuths
 
     def core(e: int, age: float) -> float:
-        return max(math.sqrt(course.core[0] + course.core[1] * age * STEP), ROOT if edges[e] < 0.5 else FAR)
+        return max(
+            math.sqrt(course.core[0] + course.core[1] * age * STEP), ROOT if edges[e] < 0.5 else FAR
+        )
 
     def mean(age: int, k: int) -> float:
         return 0.5 * (strip(age, k) + strip(age + 1, k))
 
     for age in range(1, turns):
         for s, e in enumerate(borders):
-            yield node(age, e), node(age + 1, e), mean(age, s - 1) - mean(age, s), core(e, age + 0.5)
+            yield (
+                node(age, e),
+                node(age + 1, e),
+                mean(age, s - 1) - mean(age, s),
+                core(e, age + 0.5),
+            )
         for s, (low, high) in enumerate(STRIPS):
-            yield node(age, low), node(age, high), mean(age, s) - (mean(age - 1, s) if age > 1 else 0.0), SHED
-    steady = [sum(strip(k, s) for k in range(LINE.azimuths)) / LINE.azimuths for s in range(len(STRIPS))] + [0.0]
+            yield (
+                node(age, low),
+                node(age, high),
+                mean(age, s) - (mean(age - 1, s) if age > 1 else 0.0),
+                SHED,
+            )
+    steady = [
+        sum(strip(k, s) for k in range(LINE.azimuths)) / LINE.azimuths for s in range(len(STRIPS))
+    ] + [0.0]
     begin, end = turns * STEP, 8.0 / math.hypot(course.mu_x, course.mu_z + course.lambda0)
     ages = np.append(np.arange(begin, end - 1e-9, math.pi / 6.0), end) / STEP
     for young, old in pairwise(ages.tolist()):
@@ -110,7 +134,9 @@ def pieces(course: WakeCourse, circulation: Array, azimuth: int) -> Iterator[Pie
             yield node(young, e), node(old, e), inner - steady[s], core(e, turns - 0.5)
 
 
-def downwash(course: WakeCourse, circulation: Array, first: int, target: Array, up: Array, own: float | None) -> float:
+def downwash(
+    course: WakeCourse, circulation: Array, first: int, target: Array, up: Array, own: float | None
+) -> float:
     """At a target on the blade at azimuth `first`, with the core `own` of its own young lines; None: off all blades."""
     total = np.zeros(3)
     for azimuth in (first, first + LINE.azimuths // 2):
@@ -137,7 +163,14 @@ def test_on_the_blades_as_a_plain_sum():
         beta = COURSE.coning + COURSE.flap_1c * math.cos(psi) + COURSE.flap_1s * math.sin(psi)
         up = np.array([-beta * math.cos(psi), -beta * math.sin(psi), 1.0])
         found = [
-            downwash(COURSE, circulation, azimuth, np.array([r * math.cos(psi), r * math.sin(psi), beta * r]), up, own)
+            downwash(
+                COURSE,
+                circulation,
+                azimuth,
+                np.array([r * math.cos(psi), r * math.sin(psi), beta * r]),
+                up,
+                own,
+            )
             for r, own in ((float(r), own_core(float(r), COURSE.mu_x)) for r in LINE.r)
         ]
         assert_allclose(ours[:, azimuth], found, rtol=0, atol=SINGLE * float(np.abs(found).max()))
@@ -150,11 +183,16 @@ def test_at_fixed_points_as_a_plain_sum():
     ours = at_points(LINE, COURSE, points, normals) @ circulation.ravel()
     assert ours.shape == (4, 3)
     for position in (0, 3):
-        found = [downwash(COURSE, circulation, position, at, up, None) for at, up in zip(points, normals, strict=True)]
+        found = [
+            downwash(COURSE, circulation, position, at, up, None)
+            for at, up in zip(points, normals, strict=True)
+        ]
         assert_allclose(ours[position], found, rtol=0, atol=SINGLE * float(np.abs(found).max()))
 
 
-@pytest.mark.parametrize(("begin", "share"), [(-50.0, 1.0), (0.0, 0.5)], ids=["infinite", "semi-infinite"])
+@pytest.mark.parametrize(
+    ("begin", "share"), [(-50.0, 1.0), (0.0, 0.5)], ids=["infinite", "semi-infinite"]
+)
 @pytest.mark.parametrize("core", [0.0, 0.1])
 def test_a_straight_line_is_that_of_the_textbook(begin: float, share: float, core: float):
     """v = d/(2π √(d⁴ + c⁴)) by an infinite line of circulation 1 at a distance d, half of it by a semi-infinite."""
@@ -166,16 +204,23 @@ def test_a_straight_line_is_that_of_the_textbook(begin: float, share: float, cor
     places, shares = np.zeros((1, 3), np.int64), np.array([[1.0, 0.0]], np.float32)
     sum_lines(targets, nodes, ends, np.array([core**4], np.float32), none, places, shares, 0, out)
     assert_allclose(
-        out[0, 0] / (4.0 * math.pi), share * distance / (2.0 * math.pi * np.hypot(distance**2, core**2)), rtol=1e-3
+        out[0, 0] / (4.0 * math.pi),
+        share * distance / (2.0 * math.pi * np.hypot(distance**2, core**2)),
+        rtol=1e-3,
     )
 
 
 def test_the_lines_have_the_same_sum_in_any_order():
     """What a line takes over from the one before is the distance from where both meet."""
     wake, rng = build_wake(LINE, COURSE, np.zeros(1)), np.random.default_rng(3)
-    targets, young = rng.uniform(-1.0, 1.0, (6, 37)).astype(np.float32), np.full(37, 1e-6, np.float32)
+    targets, young = (
+        rng.uniform(-1.0, 1.0, (6, 37)).astype(np.float32),
+        np.full(37, 1e-6, np.float32),
+    )
     sums = np.zeros((2, wake.rows[-1], LINE.azimuths, 37), np.float32)
-    for out, order in zip(sums, (np.arange(len(wake.ends)), rng.permutation(len(wake.ends))), strict=True):
+    for out, order in zip(
+        sums, (np.arange(len(wake.ends)), rng.permutation(len(wake.ends))), strict=True
+    ):
         core, places, shares = (each[order] for each in (wake.core, wake.places, wake.shares))
         sum_lines(targets, wake.nodes[0], wake.ends[order], core, young, places, shares, 3, out)
     assert_allclose(sums[0], sums[1], rtol=0, atol=SINGLE * float(np.abs(sums).max()))
@@ -185,14 +230,17 @@ def test_the_lines_have_the_same_sum_in_any_order():
 def test_what_ends_the_near_wake_and_begins_the_strips_cancels(steps: int):
     """A circulation that rests sheds nothing. Seen from above that line, so near that its core decides."""
     line, age = replace(LINE, near=steps * STEP), steps * STEP
-    wake = build_wake(line, replace(HOVER, coning=0.0), np.zeros(1))  # In hover both lines are straight.
+    # In hover both lines are straight.
+    wake = build_wake(line, replace(HOVER, coning=0.0), np.zeros(1))
     row, (panels, bound, strips, last) = wake.places[:, 0], np.take(wake.rows, [1, 2, 4, 5])
     shed = np.flatnonzero(((panels <= row) & (row < bound)) | ((strips <= row) & (row < last)))
     target = np.array([0.7 * math.cos(age), -0.7 * math.sin(age), 0.01 - HOVER.lambda0 * age])
     found = np.zeros((len(shed), 3))
     for each, k in zip(found, shed.tolist(), strict=True):
         begin, end = wake.nodes[0, wake.ends[k]].astype(np.float64)
-        each[:] = wake.shares[k].sum() * unit_line(target, begin, end, max(float(wake.core[k]), 0.0) ** 0.25)
+        each[:] = wake.shares[k].sum() * unit_line(
+            target, begin, end, max(float(wake.core[k]), 0.0) ** 0.25
+        )
     assert np.linalg.norm(found.sum(axis=0)) < 1e-4 * np.linalg.norm(found, axis=1).max()
 
 
@@ -213,7 +261,9 @@ def test_many_blades_in_hover_approach_momentum_theory():
     """
     line, thrust = LiftingLine(blades=12, root=0.15, panels=24, azimuths=24), 0.006
     course = replace(HOVER, coning=0.0, lambda0=math.sqrt(0.5 * thrust))
-    inflow = mean_influence(line, course) @ np.full(line.panels, 2.0 * math.pi * thrust / line.blades)
+    inflow = mean_influence(line, course) @ np.full(
+        line.panels, 2.0 * math.pi * thrust / line.blades
+    )
     middle = (line.r > 0.4) & (line.r < 0.8)
     assert_allclose(inflow[middle], course.lambda0, rtol=0.02)
 
@@ -229,7 +279,10 @@ def test_uneven_loads_in_hover_meet_the_inflow_of_their_annuli(change: float):
 
     def inflow(uneven: Array) -> Array:
         """λ_i by N_bΓ/π = 2 C_T × a load along the blade."""
-        return mean + nodes.field(np.repeat(2.0 * thrust * uneven, line.azimuths)).reshape(24, 24)[:, 0]
+        return (
+            mean
+            + nodes.field(np.repeat(2.0 * thrust * uneven, line.azimuths)).reshape(24, 24)[:, 0]
+        )
 
     middle = (line.r > 0.4) & (line.r < 0.8)
     load = 1.0 + change * np.cos(math.pi * line.r)
@@ -242,7 +295,9 @@ def test_uneven_loads_in_hover_meet_the_inflow_of_their_annuli(change: float):
 def test_the_mirrored_wake_is_that_of_negative_thrust():
     """Above the disk as far as below it, and with the same influence, at low speed too."""
     below = replace(COURSE, mu_x=0.05, lambda0=0.03)
-    above = replace(below, mu_z=-below.mu_z, lambda0=-0.03, coning=-below.coning, flap_1c=-0.01, flap_1s=0.02)
+    above = replace(
+        below, mu_z=-below.mu_z, lambda0=-0.03, coning=-below.coning, flap_1c=-0.01, flap_1s=0.02
+    )
     assert 0.0 < below.skewed < 1.0
     mirrored = np.abs(influence(LINE, above) - influence(LINE, below))
     assert mirrored.max() < 1e-5 * np.abs(influence(LINE, below)).max()
@@ -250,9 +305,16 @@ def test_the_mirrored_wake_is_that_of_negative_thrust():
 
 def test_in_hover_every_azimuth_sees_the_same():
     matrix = influence(LINE, HOVER).reshape(6, 8, 6, 8)
-    assert_allclose(matrix, np.roll(matrix, (1, 1), axis=(1, 3)), rtol=0, atol=2e-4 * float(np.abs(matrix).max()))
+    assert_allclose(
+        matrix,
+        np.roll(matrix, (1, 1), axis=(1, 3)),
+        rtol=0,
+        atol=2e-4 * float(np.abs(matrix).max()),
+    )
     mean = influence(LINE, HOVER).reshape(6, 8, 6, 8)[:, 0].sum(axis=2)
-    assert_allclose(mean_influence(LINE, HOVER), mean, rtol=0, atol=2e-4 * float(np.abs(mean).max()))
+    assert_allclose(
+        mean_influence(LINE, HOVER), mean, rtol=0, atol=2e-4 * float(np.abs(mean).max())
+    )
 
 
 FINE = LiftingLine(4, 0.15, 24, 24)
@@ -274,7 +336,9 @@ def of_downwash(downwash: complex) -> complex:
     return 1.0 / (1.0 + 2.0 * math.pi * HALF_CHORD * downwash)
 
 
-@pytest.mark.parametrize(("k", "published"), [(0.05, 0.909 - 0.130j), (0.1, 0.832 - 0.172j), (0.2, 0.728 - 0.189j)])
+@pytest.mark.parametrize(
+    ("k", "published"), [(0.05, 0.909 - 0.130j), (0.1, 0.832 - 0.172j), (0.2, 0.728 - 0.189j)]
+)
 def test_theodorsens_function(k: float, published: complex):
     """NACA Report 496, table 4: F and −G."""
     assert abs(theodorsen(np.array([k]))[0] - published) < 1e-3
@@ -313,7 +377,9 @@ def test_what_has_just_left_lies_on_the_blade():
     psi, r = np.array([0.3, 2.0, 5.0]), np.array([0.2, 0.7, 1.0])
     beta = 0.06 + 0.02 * np.cos(psi) - 0.03 * np.sin(psi)
     found = SKEWED.nodes(psi, np.zeros(1), r)[:, 0]
-    expected = np.stack([np.outer(np.cos(psi), r), np.outer(np.sin(psi), r), np.outer(beta, r)], axis=-1)
+    expected = np.stack(
+        [np.outer(np.cos(psi), r), np.outer(np.sin(psi), r), np.outer(beta, r)], axis=-1
+    )
     assert_allclose(found, expected, atol=1e-15)
 
 
@@ -326,7 +392,9 @@ def test_without_flight_it_sinks_as_the_helix_of_momentum_theory():
 
 @pytest.mark.parametrize("path", [0.0, 0.25, 1.0])
 @pytest.mark.parametrize(("released", "r"), [(math.pi, 0.9), (2.5, 0.6), (4.0, 1.0)])
-def test_it_follows_the_inflow_inside_the_disk_and_behind_it(released: float, r: float, path: float):
+def test_it_follows_the_inflow_inside_the_disk_and_behind_it(
+    released: float, r: float, path: float
+):
     """Differences of z along the track against the inflow written out, and that of Beddoes, with tan χ by hand."""
     course, step = replace(SKEWED, beddoes=path), 1e-5
     chi = math.acos((course.mu_z + course.lambda0) / course.speed)
@@ -343,10 +411,15 @@ def test_it_follows_the_inflow_inside_the_disk_and_behind_it(released: float, r:
         assert_allclose((after - before) / (2.0 * step), velocity, atol=1e-8)
 
 
-@pytest.mark.parametrize("course", [SKEWED, replace(SKEWED, mu_z=-0.05), replace(SKEWED, lambda0=-0.015)])
+@pytest.mark.parametrize(
+    "course", [SKEWED, replace(SKEWED, mu_z=-0.05), replace(SKEWED, lambda0=-0.015)]
+)
 def test_its_mean_inflow_over_the_disk_is_that_of_momentum_theory(course: WakeCourse):
     """To rounding: the mean over the disk of what vortices sink from its front edge to its rear, y = sin φ."""
-    level, (nodes, weights) = replace(course, coning=0.0, flap_1c=0.0, flap_1s=0.0), np.polynomial.legendre.leggauss(24)
+    level, (nodes, weights) = (
+        replace(course, coning=0.0, flap_1c=0.0, flap_1s=0.0),
+        np.polynomial.legendre.leggauss(24),
+    )
     flux = 0.0
     for phi, weight in zip(0.25 * math.pi * (nodes + 1.0), 0.25 * math.pi * weights, strict=True):
         across = 2.0 * math.cos(phi) / course.mu_x

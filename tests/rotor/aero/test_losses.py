@@ -32,7 +32,9 @@ def test_slope_by_inflow_and_finite_at_zero_inflow():
     inflow = np.array([-0.04, -0.005, 0.003, 0.02, 0.08])
     factor, slope = loss_factor(r, inflow, 4, 0.13)
     h = 1e-7
-    difference = (loss_factor(r, inflow + h, 4, 0.13)[0] - loss_factor(r, inflow - h, 4, 0.13)[0]) / (2.0 * h)
+    difference = (
+        loss_factor(r, inflow + h, 4, 0.13)[0] - loss_factor(r, inflow - h, 4, 0.13)[0]
+    ) / (2.0 * h)
     assert_allclose(slope, difference, rtol=1e-5, atol=1e-6)
     assert ((factor > 0.0) & (factor <= 1.0)).all()
     still, _ = loss_factor(r, 0.0, 4, 0.13)
@@ -82,7 +84,9 @@ def test_loss_on_the_inflow_is_that_of_the_annulus_in_fast_flight():
         assert_allclose(disk.induced, by_hand, rtol=1e-3)
         free, lost = state.lambda0, disk.induced.mean(axis=1)
 
-        def annulus(inflow: Array, mu: float = mu, factor: Array = factor, free: float = free) -> Array:
+        def annulus(
+            inflow: Array, mu: float = mu, factor: Array = factor, free: float = free
+        ) -> Array:
             return factor * inflow * np.hypot(mu, inflow) / (free * math.hypot(mu, free)) - 1.0
 
         errors.append(float(np.abs(annulus(lost)).max()))
@@ -97,4 +101,6 @@ def test_the_parts_of_power_are_the_torque_with_loss_on_the_inflow():
     e, psi = Analysis(stated).linear.elements, stated.disk.psi
     aft = (e.fx * np.sin(psi) - e.fz * e.beta * np.cos(psi)).mean(axis=1)
     lacking = 0.25 * float(stated.disk.dr @ aft) * stated.design.power_unit
-    assert_allclose(stated.power.shaft, stated.power.induced + stated.power.profile - lacking, rtol=1e-6)
+    assert_allclose(
+        stated.power.shaft, stated.power.induced + stated.power.profile - lacking, rtol=1e-6
+    )

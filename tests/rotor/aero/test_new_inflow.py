@@ -82,12 +82,17 @@ def table(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[HarmonicI
 
 
 @pytest.mark.parametrize("loss_on", ["lift", "inflow"])
-def test_a_table_of_harmonics_trims_and_has_its_harmonics_and_an_exact_gradient(table: HarmonicInflow, loss_on: LossOn):
+def test_a_table_of_harmonics_trims_and_has_its_harmonics_and_an_exact_gradient(
+    table: HarmonicInflow, loss_on: LossOn
+):
     """Harmonics: means over the azimuth. Gradient of power by twist: differences of trims, solved to 1e-13."""
     rate, step, tight = np.radians(-11.0), 2e-5, SolverOptions(residual_tolerance=1e-13)
     off = "tip-loss,hub-loss" if loss_on == "lift" else None
     made = make_design(mu=0.2, inflow=NAME, elements=20, azimuths=48, loss_on=loss_on, off=off)
-    at = [solve(made.with_twist(LinearTwist(rate + k * step)), options=tight).require() for k in (-1, 0, 1)]
+    at = [
+        solve(made.with_twist(LinearTwist(rate + k * step)), options=tight).require()
+        for k in (-1, 0, 1)
+    ]
     low, middle, high = at
     disk, state = middle.disk, middle.controls
     flow = DiskFlow(*made.in_disk_axes(state.shaft_tilt), state.lambda0)
@@ -99,16 +104,26 @@ def test_a_table_of_harmonics_trims_and_has_its_harmonics_and_an_exact_gradient(
         assert mean[-1] > 1.1 * state.lambda0
     for h, k in enumerate(gains, start=1):
         found = 2.0 * (disk.induced * np.cos(h * disk.psi)).mean(axis=1)
-        assert_allclose(found, mean * np.interp(disk.r, (0.0, 0.3, 0.6, 0.9, 1.0), k), rtol=1e-8, atol=1e-12)
+        assert_allclose(
+            found, mean * np.interp(disk.r, (0.0, 0.3, 0.6, 0.9, 1.0), k), rtol=1e-8, atol=1e-12
+        )
     gradient = power_gradient(middle)
     exact = gradient.along((gradient.r - 0.75)[None])[0]
-    assert_allclose(exact, (high.power.total - low.power.total) / (2.0 * step), atol=1e-6 * middle.power.total)
+    assert_allclose(
+        exact, (high.power.total - low.power.total) / (2.0 * step), atol=1e-6 * middle.power.total
+    )
 
 
 def test_differences_have_the_slopes_that_linear_models_have_by_hand():
-    for flow in (DiskFlow(0.002, 0.0, 0.055), DiskFlow(0.1, 0.01, 0.03), DiskFlow(0.4, -0.01, 0.02)):
+    for flow in (
+        DiskFlow(0.002, 0.0, 0.055),
+        DiskFlow(0.1, 0.01, 0.03),
+        DiskFlow(0.4, -0.01, 0.02),
+    ):
         for model in MODELS:
-            assert_allclose(HarmonicInflow.strengths(model, flow), model.strengths(flow), rtol=1e-8, atol=1e-9)
+            assert_allclose(
+                HarmonicInflow.strengths(model, flow), model.strengths(flow), rtol=1e-8, atol=1e-9
+            )
 
 
 @pytest.mark.usefixtures("table")

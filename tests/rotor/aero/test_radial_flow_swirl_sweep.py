@@ -38,9 +38,16 @@ def test_profile_power_and_drag_with_yawed_flow(mu: float):
     """Of constant C_d: C_P0 = σc_d/8 (1 + 4.5µ² + 1.61µ^3.7), C_H = σc_d/8 (3µ + 1.98µ^2.7) (Johnson 1980)."""
     design = make_design(mu=mu)
     blade = replace(design.rotor.blade, root_cutout=0.001, spans=design.rotor.blade.spans[-1:])
-    design = replace(design, rotor=replace(design.rotor, blade=replace(blade, chord_stations=(0.0, 1.0))))
-    problem = build_problem(replace(design, models=replace(design.models, elements=400, azimuths=360)))
-    disk, forces = problem.disk, section(flow_at(problem, mu), with_drag_of_one(problem), False, False)[0]
+    design = replace(
+        design, rotor=replace(design.rotor, blade=replace(blade, chord_stations=(0.0, 1.0)))
+    )
+    problem = build_problem(
+        replace(design, models=replace(design.models, elements=400, azimuths=360))
+    )
+    disk, forces = (
+        problem.disk,
+        section(flow_at(problem, mu), with_drag_of_one(problem), False, False)[0],
+    )
     across: np.ndarray = disk.r[:, None] + mu * disk.sin
     width = disk.dr / len(disk.psi)
     power = width @ (forces[FX] * across + forces[FR] * mu * disk.cos).sum(axis=1)
@@ -72,9 +79,13 @@ def test_without_yaw_the_section_is_that_of_its_plane():
     channels, data = flow_at(problem, 0.4), problem.section_data()
     channels[UR] = 0.0
     plane = data._replace(yawed=False)
-    for yawed, own in zip(section(channels, data, True, True), section(channels, plane, True, True), strict=True):
+    for yawed, own in zip(
+        section(channels, data, True, True), section(channels, plane, True, True), strict=True
+    ):
         rows = [
-            k for k in range(len(own)) if len(own) < 6 or PAIRS[k] not in ((FR, UR), (FZ, LOSS), (FX, LOSS), (M, LOSS))
+            k
+            for k in range(len(own))
+            if len(own) < 6 or PAIRS[k] not in ((FR, UR), (FZ, LOSS), (FX, LOSS), (M, LOSS))
         ]
         assert_allclose(yawed[rows], own[rows], rtol=0, atol=1e-14)
 
@@ -108,7 +119,8 @@ def test_swirl_is_what_the_torque_gives_the_air():
     lifting = disk.dct[:, 0] * disk.u_p[:, 0] / disk.u_t[:, 0]  # The part of F_x that lift makes.
     factor, _ = loss_factor(disk.r, inflow, 4, solution.design.rotor.blade.root_cutout)
     turned = 4.0 * factor * disk.r**2 * inflow * swirl
-    error = 3.0 * inflow**2 / disk.r**2 + 0.01  # What the closed form leaves out, twice λ²/r² and the drag of U_P.
+    # What the closed form leaves out, twice λ²/r² and the drag of U_P.
+    error = 3.0 * inflow**2 / disk.r**2 + 0.01
     assert (np.abs(turned / (disk.r * lifting) - 1.0) < error)[middle].all()
     assert (error[middle] < 0.12).all()
 
@@ -126,7 +138,9 @@ def test_what_an_effect_costs(effect: str, mu: float, low: float, high: float):
     Sweep saves where the advancing tip is past drag divergence.
     """
     design = make_design(mu=mu)
-    with_it, without = (solve(d).require().power.total for d in (design, with_switches(design, (effect,))))
+    with_it, without = (
+        solve(d).require().power.total for d in (design, with_switches(design, (effect,)))
+    )
     assert low < with_it / without - 1.0 < high
 
 
@@ -154,21 +168,29 @@ def test_sweep_begins_smoothly_over_one_chord():
 def test_download_is_the_stated_part_in_hover_and_fades_with_the_skew_of_the_wake():
     """Thrust over weight less one: 3.5 % cos²χ, χ the skew of momentum theory's wake, so 45° leaves half."""
     shares = [
-        build_problem(make_design(mu=mu)).weight / make_design(mu=mu).weight_coefficient - 1.0 for mu in (0.0, 0.1)
+        build_problem(make_design(mu=mu)).weight / make_design(mu=mu).weight_coefficient - 1.0
+        for mu in (0.0, 0.1)
     ]
     assert_allclose(shares[0], 0.035, rtol=1e-12)
-    wake = math.sqrt(make_design().weight_coefficient / 2.0)  # λ_h; µ = λ gives χ = 45° where λ⁴·2 = λ_h⁴.
+    # λ_h; µ = λ gives χ = 45° where λ⁴·2 = λ_h⁴.
+    wake = math.sqrt(make_design().weight_coefficient / 2.0)
     mu = wake / 2.0**0.25
     design = replace(make_design(mu=mu), fuselage=replace(make_design().fuselage, drag_area=0.0))
-    assert_allclose(build_problem(design).weight / design.weight_coefficient - 1.0, 0.0175, rtol=1e-6)
+    assert_allclose(
+        build_problem(design).weight / design.weight_coefficient - 1.0, 0.0175, rtol=1e-6
+    )
     assert 0.0 < shares[1] < 0.006
 
 
 def test_a_rough_surface_multiplies_profile_power_in_hover():
     """All section drag 10 % up, thrust and inflow all but the same: profile power 10 % up."""
     design = make_design(hover=True)
-    rough = replace(design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, surface_drag=1.1)))
-    smooth, real, off = (solve(d).require() for d in (design, rough, with_switches(rough, ("surface_drag",))))
+    rough = replace(
+        design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, surface_drag=1.1))
+    )
+    smooth, real, off = (
+        solve(d).require() for d in (design, rough, with_switches(rough, ("surface_drag",)))
+    )
     assert_allclose(real.power.profile / smooth.power.profile, 1.1, rtol=2e-3)
     assert_same_trim(off, smooth)
     assert no_effect(design, "surface_drag")

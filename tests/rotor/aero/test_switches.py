@@ -49,7 +49,9 @@ def small(mu: float, preset: str = "flight", inflow: str | None = None, **models
     """A coarse grid: identities and exactness do not depend on it."""
     design = make_design(preset=preset, mu=mu, twist="segments:-14,-6@0.6")
     inflow = inflow or design.models.inflow
-    return replace(design, models=replace(design.models, elements=16, azimuths=36, inflow=inflow, **models))
+    return replace(
+        design, models=replace(design.models, elements=16, azimuths=36, inflow=inflow, **models)
+    )
 
 
 def name(off: tuple[str, ...]) -> str:
@@ -57,13 +59,16 @@ def name(off: tuple[str, ...]) -> str:
 
 
 @pytest.mark.parametrize(
-    ("inflow", "combined"), [("lifting-line", EVERY), ("pitt-peters", EVERY), ("local-momentum", EVERY[::63])]
+    ("inflow", "combined"),
+    [("lifting-line", EVERY), ("pitt-peters", EVERY), ("local-momentum", EVERY[::63])],
 )
 def test_energy_identity_for_every_combination(inflow: str, combined: list[tuple[str, ...]]):
     """P_shaft = Σ(λ_i dF_z + u dF_x + U dD) + D·V: torque, dissipation and trim are computed apart and must meet."""
     for off in combined:
         solution = solve(with_switches(small(0.3, inflow=inflow), off)).require()
-        assert_allclose(solution.power.shaft, solution.power.main_rotor, rtol=2e-9, err_msg=name(off))
+        assert_allclose(
+            solution.power.shaft, solution.power.main_rotor, rtol=2e-9, err_msg=name(off)
+        )
 
 
 class TestReverseFlow:
@@ -87,7 +92,10 @@ class TestReverseFlow:
 class TestCompressibility:
     def test_sections_are_those_of_one_mach_number(self):
         solution = solve(
-            with_switches(make_design(mu=0.35), ("compressibility", "swept_tip", "dynamic_stall", "radial_friction"))
+            with_switches(
+                make_design(mu=0.35),
+                ("compressibility", "swept_tip", "dynamic_stall", "radial_friction"),
+            )
         ).require()
         disk = solution.disk
         for radius, section in ((0.2, "sc1095"), (0.65, "sc1094r8"), (0.95, "sc1095")):
@@ -131,7 +139,9 @@ class TestFlapping:
         lift = 0.5 * sigma * slope * (theta * e.u_t**2 - inflow * e.u_t)
         moment = hub_moment(problem, replace(e, fz=lift))
         root = design.rotor.blade.root_cutout
-        by_hand = 0.5 * sigma * slope * mu * (theta * (1 - root**3) / 3.0 - inflow * (1 - root**2) / 4.0)
+        by_hand = (
+            0.5 * sigma * slope * mu * (theta * (1 - root**3) / 3.0 - inflow * (1 - root**2) / 4.0)
+        )
         unit = design.thrust_unit * design.rotor.radius
         assert_allclose(moment.roll / unit, by_hand, rtol=1e-4)
         assert_allclose(moment.pitch / unit, 0.0, atol=1e-12)
@@ -143,7 +153,9 @@ class TestLossesAndFuselage:
     def test_each_loss_acts_at_its_end_of_the_blade(self, off: str, end: int):
         state = TrimState(collective=0.17, shaft_tilt=0.08, lambda0=0.012)
         on, without = (
-            point_at(build_problem(with_switches(small(0.2, inflow="drees"), names)), state).channels[LOSS, :, 0]
+            point_at(
+                build_problem(with_switches(small(0.2, inflow="drees"), names)), state
+            ).channels[LOSS, :, 0]
             for names in ((), (off,))
         )
         assert on[end] < 0.95
@@ -152,17 +164,25 @@ class TestLossesAndFuselage:
 
     def test_local_momentum_without_tip_loss_drops_its_factor(self):
         """At one load λ_i with tip loss is λ_i without it over F (2.28): F of the mean inflow by Prandtl."""
-        problem, wake, model = build_problem(small(0.2)), DiskFlow(0.2, 0.01, 0.013), INFLOW_MODELS["local-momentum"]
+        problem, wake, model = (
+            build_problem(small(0.2)),
+            DiskFlow(0.2, 0.01, 0.013),
+            INFLOW_MODELS["local-momentum"],
+        )
         disk = problem.disk
         terms = [model.on(disk, problem.course, Losses(tip, True)) for tip in (True, False)]
-        on, off = (one.follow(wake, wake.mu_z, sees_tilt=True).live[GAIN, "gain"][0] for one in terms)
+        on, off = (
+            one.follow(wake, wake.mu_z, sees_tilt=True).live[GAIN, "gain"][0] for one in terms
+        )
         assert_allclose(on * tip_factor(disk.r, wake.axial, 4)[0], off, rtol=1e-9)
 
     def test_a_lifting_line_keeps_its_tips_and_roots(self):
         design = small(0.2)
         assert no_effect(design, "tip_loss") == "included in the wake"
         assert no_effect(design, "hub_loss") == "included in the wake"
-        assert_same_trim(*(solve(with_switches(design, names)) for names in ((), ("tip_loss", "hub_loss"))))
+        assert_same_trim(
+            *(solve(with_switches(design, names)) for names in ((), ("tip_loss", "hub_loss")))
+        )
 
     def test_no_fuselage_no_parasite_power_and_hardly_a_tilt(self):
         on = solve(make_design(mu=0.3)).require()
@@ -190,11 +210,14 @@ class TestWaterfall:
 
     def test_each_alone_is_the_full_model_less_one(self):
         design = small(0.3)
-        found = waterfall(with_switches(design, ("fuselage",)))  # The design's own switches do not matter.
+        # The design's own switches do not matter.
+        found = waterfall(with_switches(design, ("fuselage",)))
         for step in found.alone:
             assert [off.name for off in switched_off(step.design.models)] == [step.switch.name]
             assert step.against is found.full.budget
-        by_drag = next(step for step in found.alone if step.switch and step.switch.name == "fuselage")
+        by_drag = next(
+            step for step in found.alone if step.switch and step.switch.name == "fuselage"
+        )
         assert_allclose(by_drag.change["parasite"], -found.full.budget.parasite, rtol=1e-12)
 
     def test_a_step_that_does_not_trim_is_skipped(self):
@@ -209,7 +232,10 @@ class TestWaterfall:
 
     def test_command(self, printed: Callable[..., str], answer: Callable[..., Any]):
         first, *steps = answer("waterfall", "--mu", "0.3")["steps"]
-        assert [first["switch"], *(step["switch"] for step in steps)] == [None, *(s.flag for s in SWITCHES.values())]
+        assert [first["switch"], *(step["switch"] for step in steps)] == [
+            None,
+            *(s.flag for s in SWITCHES.values()),
+        ]
         added = sum(sum(step["change_w"].values()) for step in steps)
         assert_allclose(added, steps[-1]["total_w"] - first["total_w"], rtol=1e-12)
         assert "-0.0" not in printed("waterfall", "--mu", "0", "--preset", "thesis")
@@ -219,4 +245,7 @@ def test_files_keep_every_switch_and_old_files_are_read():
     for off in EVERY[::7]:
         design = with_switches(make_design(mu=0.2), off)
         assert design_from_record(design.to_dict()).models == design.models
-    assert switched_off(design_from_record({"tip_loss": False, "hub_loss": True}).models)[0].name == "tip_loss"
+    assert (
+        switched_off(design_from_record({"tip_loss": False, "hub_loss": True}).models)[0].name
+        == "tip_loss"
+    )

@@ -11,7 +11,20 @@ from rotor import make_design
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.lifting_line import theodorsen
 from rotor.aero.problem import build_problem
-from rotor.aero.section import CHANNELS, FX, FZ, LOSS, NO_INCREMENTS, NO_SCATTER, RATE, TH, UP, UT, M, SectionData
+from rotor.aero.section import (
+    CHANNELS,
+    FX,
+    FZ,
+    LOSS,
+    NO_INCREMENTS,
+    NO_SCATTER,
+    RATE,
+    TH,
+    UP,
+    UT,
+    M,
+    SectionData,
+)
 from rotor.aero.unsteady_section import DTH, DUP, DUT, UnsteadyData, unsteady_interface
 from rotor.airfoil.c81 import C81Block
 from rotor.airfoil.section_table import N_ALPHA, bicubic_coefficients, mach_nodes
@@ -48,7 +61,9 @@ def flat(half_chord: Array) -> UnsteadyData:
         scatter=NO_SCATTER, moment_gain=half_solidity * chord, damping=damping, lag=none,
         moment_tables=np.zeros_like(tables[:, :, :, :1]), inertia=none,
     )  # fmt: skip
-    return UnsteadyData(own, own, half_chord=half_chord, arm=0.5 * half_chord, mass=BLADES * half_chord**2)
+    return UnsteadyData(
+        own, own, half_chord=half_chord, arm=0.5 * half_chord, mass=BLADES * half_chord**2
+    )
 
 
 def moving(pitch: Any, plunge: Any, mean: float = 0.0) -> Array:
@@ -70,7 +85,9 @@ def first(values: Array) -> Array:
 
 
 @pytest.mark.parametrize(("pitches", "height"), [(1.0, 0.0), (0.0, 1.0), (0.7 + 0.2j, -0.4j)])
-def test_force_and_moment_are_theodorsens_over_reduced_frequency(pitches: complex, height: complex) -> None:
+def test_force_and_moment_are_theodorsens_over_reduced_frequency(
+    pitches: complex, height: complex
+) -> None:
     """In the downwash of its wake, (1 − C) of that at three quarters of the chord: NACA Report 496, eqs. (XVIII), (XX).
 
     a = −½, h up. Amplitude and phase within 0.05 %.
@@ -97,7 +114,9 @@ def test_without_a_wake_slow_motion_is_steady_and_a_step_has_wagners_half() -> N
     assert fast == pytest.approx(0.5, abs=1e-4)
     data = flat(np.array([1e-3 * SPEED]))
     f = SECTION.section(moving(np.array([SMALL]), np.zeros(1)), data, False, False)[0]
-    still = PLAIN.section(moving(np.array([SMALL]), np.zeros(1))[:FIRST], data.section, False, False)[0]
+    still = PLAIN.section(
+        moving(np.array([SMALL]), np.zeros(1))[:FIRST], data.section, False, False
+    )[0]
     assert_allclose(f[FZ], still[FZ], atol=3e-3 * float(np.abs(still[FZ]).max()))
 
 
@@ -119,7 +138,9 @@ def test_apparent_mass_by_hand() -> None:
 
 
 @pytest.mark.parametrize(("pitches", "height"), [(1.0, 0.0), (0.0, 1.0), (0.6 - 0.4j, 0.3 + 0.2j)])
-def test_a_plate_without_friction_takes_no_power_over_a_cycle(pitches: complex, height: complex) -> None:
+def test_a_plate_without_friction_takes_no_power_over_a_cycle(
+    pitches: complex, height: complex
+) -> None:
     """The wake apart, lift, suction, apparent mass and moment close to second order of the motion."""
     c = moving(np.full(len(B), SMALL * pitches), SMALL * height * B)
     f = SECTION.section(c, flat(B), False, False)[0]
@@ -139,7 +160,9 @@ def test_reverse_flow_has_no_lag_and_the_moment_of_its_own_nose() -> None:
 
 @pytest.mark.parametrize("bends", [False, True])
 def test_derivatives_are_exact(bends: bool) -> None:
-    problem = build_problem(make_design(mu=0.3, bending=bends, inflow="pitt-peters", off="dynamic-stall"))
+    problem = build_problem(
+        make_design(mu=0.3, bending=bends, inflow="pitt-peters", off="dynamic-stall")
+    )
     data, interface = problem.grid_data(1), problem.interface
     rng = np.random.default_rng(3)
     c = 0.05 * rng.normal(size=(interface.channels, *problem.disk.shape))
@@ -153,10 +176,14 @@ def test_derivatives_are_exact(bends: bool) -> None:
         if channel != LOSS:
             exact[force] += slope * way[channel]
     step = 1e-7
-    ahead, behind = (interface.section(c + sign * step * way, data, False, False)[0] for sign in (1.0, -1.0))
+    ahead, behind = (
+        interface.section(c + sign * step * way, data, False, False)[0] for sign in (1.0, -1.0)
+    )
     missing = np.abs((ahead - behind) / (2.0 * step) - exact)
     assert np.median(missing) < 1e-9
-    assert (missing < 1e-5 * np.abs(exact).max(axis=(1, 2), keepdims=True)).mean() > 0.995  # But for edges of cells.
+    assert (
+        missing < 1e-5 * np.abs(exact).max(axis=(1, 2), keepdims=True)
+    ).mean() > 0.995  # But for edges of cells.
 
 
 def test_rates_of_a_trim_are_those_of_its_motion() -> None:

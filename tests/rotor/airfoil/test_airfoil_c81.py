@@ -27,9 +27,15 @@ def small_deck(machs: int, angles: int) -> C81Deck:
 
     def block(m: int, a: int, low: float) -> C81Block:
         values = np.round(rng.uniform(low, 2.0, (a, m)), 4)
-        return C81Block(np.round(np.linspace(0.0, 0.9, m), 3), np.round(np.linspace(-180.0, 180.0, a), 2), values)
+        return C81Block(
+            np.round(np.linspace(0.0, 0.9, m), 3),
+            np.round(np.linspace(-180.0, 180.0, a), 2),
+            values,
+        )
 
-    return C81Deck("RANDOM", block(machs, angles, -2.0), block(machs + 1, angles + 2, 0.01), block(2, 3, -1.0))
+    return C81Deck(
+        "RANDOM", block(machs, angles, -2.0), block(machs + 1, angles + 2, 0.01), block(2, 3, -1.0)
+    )
 
 
 def test_fields_that_touch_are_cut_by_column() -> None:
@@ -62,13 +68,22 @@ def test_bundled_deck_is_written_back_byte_by_byte(name: str) -> None:
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (("-0.3880-0.3880\n 180.00", "-0.38x0-0.3880\n 180.00"), "line 3: '-0.38x0' is not a number"),
+        (
+            ("-0.3880-0.3880\n 180.00", "-0.38x0-0.3880\n 180.00"),
+            "line 3: '-0.38x0' is not a number",
+        ),
         ((" 180.000.01234", "-180.000.02234"), "line 7: -180 deg again, unlike line 6: keep one"),
         (("0.01234", "-.01234"), "line 6: a cd at -180 deg is not positive"),
         (("  0.300  0.400", "  0.400  0.300"), "line 2: the Mach numbers of cl do not increase"),
         (("-0.3880-0.3880\n", "-0.3880-0.3880 0.1000\n"), "line 3: more than 2 values"),
-        ((" 2 2 2 2 2 2", " 2 2 2 2 2 3"), "ends after line 10, at angle 3 of 3 of cm: check the counts in line 1"),
-        (("  90.00 0.1000-0.1000\n", "  90.00 0.1000-0.1000\n 120.00 0.1\n"), "line 11: numbers after the last card"),
+        (
+            (" 2 2 2 2 2 2", " 2 2 2 2 2 3"),
+            "ends after line 10, at angle 3 of 3 of cm: check the counts in line 1",
+        ),
+        (
+            ("  90.00 0.1000-0.1000\n", "  90.00 0.1000-0.1000\n 120.00 0.1\n"),
+            "line 11: numbers after the last card",
+        ),
     ],
 )
 def test_a_damaged_deck_is_refused_in_one_sentence(change: tuple[str, str], words: str) -> None:

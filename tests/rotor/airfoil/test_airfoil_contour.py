@@ -30,9 +30,12 @@ from rotor.airfoil.contour import (
         ("naca4412", 0.12, 0.30, 0.04),
     ],
 )
-def test_thickness_is_the_published_one(name: str, thickness: float, place: float, camber: float) -> None:
+def test_thickness_is_the_published_one(
+    name: str, thickness: float, place: float, camber: float
+) -> None:
     got = thickness_and_camber(load_contour(name))
-    assert_allclose(got[0], thickness, atol=0.0007)  # measured across the chord, a cambered one is a little thicker
+    # measured across the chord, a cambered one is a little thicker
+    assert_allclose(got[0], thickness, atol=0.0007)
     assert_allclose(got[1], place, atol=0.012)
     assert_allclose(got[2], camber, atol=0.0003)
 
@@ -47,7 +50,9 @@ def test_outline_starts_on_the_upper_side_and_keeps_its_gap(name: str) -> None:
         "naca0012": 0.00252, "naca63a015": 0.00064, "naca0015re242k": 0.00315, "naca64208": 0.0, "goe429": 0.0032,
         "naca23012tab": 0.8 / 121.0, "naca23012tab-model": 0.8 / 121.0, "oa209": 0.005,
     }.get(name, 0.0016 if name.startswith("naca64") else 0.0034)  # fmt: skip
-    assert_allclose(points[0] - points[-1], [0.0, gap], atol=0.0006 if name.startswith("naca64") else 0.0002)
+    assert_allclose(
+        points[0] - points[-1], [0.0, gap], atol=0.0006 if name.startswith("naca64") else 0.0002
+    )
     contour = load_contour(name)
     nose, tail = points[leading_edge_index(contour)], trailing_edge(contour)
     # The point farthest from the tail is on the nose circle of a cambered section, near the end of its mean line.
@@ -55,7 +60,9 @@ def test_outline_starts_on_the_upper_side_and_keeps_its_gap(name: str) -> None:
     assert_allclose(nose, [0.0, 0.0], atol=0.03 if cambered else 1e-6)
     assert_allclose(tail, [1.0, 0.0], atol=5e-4 if cambered else 1e-6)
     x, y = points.T
-    assert float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) > 0.0, "counter-clockwise with y up"
+    assert float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y)) > 0.0, (
+        "counter-clockwise with y up"
+    )
 
 
 @pytest.mark.parametrize("name", SECTION_NAMES)
@@ -65,9 +72,10 @@ def test_resampling_keeps_the_shape(name: str, n: int) -> None:
     again = resample(contour, n)
     assert again.points.shape == (n, 2)
     assert_allclose(again.points[[0, -1]], contour.points[[0, -1]], atol=1e-12)
+    # The nose is the middle point.
     assert_allclose(
         again.points[(n - 1) // 2], contour.points[leading_edge_index(contour)], atol=1e-12
-    )  # The nose is the middle point.
+    )
 
     def area(points: np.ndarray) -> float:
         x, y = points.T
@@ -81,8 +89,11 @@ def test_resampling_keeps_the_shape(name: str, n: int) -> None:
 
 def test_titled_outlines_are_read_and_bad_ones_refused_in_one_sentence(tmp_path: Path) -> None:
     body = [f"{x:.6f} {y:.6f}" for x, y in load_contour("sc1095").points]
-    (tmp_path / "copy.dat").write_text("\n".join(["SOME AIRFOIL", *body]), encoding="utf-8")  # Selig's title.
-    assert_allclose(read_contour(tmp_path / "copy.dat").points, load_contour("sc1095").points, atol=1e-6)
+    # Selig's title.
+    (tmp_path / "copy.dat").write_text("\n".join(["SOME AIRFOIL", *body]), encoding="utf-8")
+    assert_allclose(
+        read_contour(tmp_path / "copy.dat").points, load_contour("sc1095").points, atol=1e-6
+    )
     for text, words in (
         ("\n".join(body[:50]) + "\n0.5 oops\n", "line 51: '0.5 oops' is not `x y`"),
         ("\n".join(body[:9]), "has 9 points"),
@@ -105,9 +116,13 @@ def test_the_tab_is_behind_the_published_naca_23012_and_oa209_is_thin() -> None:
     nose = int(np.argmin(points[:, 0]))
     upper, lower = points[nose::-1], points[nose:]
     place = np.array([0.05, 0.30, 0.40, 0.60])
-    assert_allclose(np.interp(place * body, *upper.T) / body, [0.0491, 0.0755, 0.0714, 0.0547], atol=3e-4)
+    assert_allclose(
+        np.interp(place * body, *upper.T) / body, [0.0491, 0.0755, 0.0714, 0.0547], atol=3e-4
+    )
     place = np.array([0.10, 0.30, 0.40, 0.60])
-    assert_allclose(np.interp(place * body, *lower.T) / body, [-0.0292, -0.0446, -0.0448, -0.0367], atol=3e-4)
+    assert_allclose(
+        np.interp(place * body, *lower.T) / body, [-0.0292, -0.0446, -0.0448, -0.0367], atol=3e-4
+    )
     behind = points[points[:, 0] > body + 1e-6]
     assert_allclose(np.abs(behind[:, 1]), 0.4 / 121.0, atol=1e-6)
     assert_allclose(thickness_and_camber(load_contour("oa209"))[0], 0.09, atol=5e-4)

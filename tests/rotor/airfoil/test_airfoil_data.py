@@ -19,7 +19,8 @@ def test_sections_agree_with_the_data_kept_aside() -> None:
     found = agreement("sc1095")
     assert found.points > 25
     assert found.cl_rms < 0.06
-    assert found.cd_largest < 0.105  # 10.4 % at 6 deg, Mach 0.3 and 0.4; within 10 % at the other 19 points.
+    # 10.4 % at 6 deg, Mach 0.3 and 0.4; within 10 % at the other 19 points.
+    assert found.cd_largest < 0.105
     assert found.cm_largest < 0.01
     assert np.abs(found.divergence).max() < 0.015
 
@@ -44,7 +45,12 @@ def test_drag_slope_and_zero_lift_are_those_of_tunnels_and_deck() -> None:
     mean = load_section("sc1095")(np.deg2rad([0.0, 1.0, 2.0, 3.0, 4.0]), 0.45).cd.mean()
     assert_allclose(mean, 0.5 * (0.0098 + 0.0079), rtol=0.03)
     # McCroskey, NASA TM-100019: 0.1025 + 0.00485 log10(Re/10⁶) per degree over √(1 − M²), Re in millions × Mach.
-    for name, reynolds in (("sc1095", 12.27), ("sc1094r8", 12.27), ("naca0012", 10.80), ("naca63a015", 4.40)):
+    for name, reynolds in (
+        ("sc1095", 12.27),
+        ("sc1094r8", 12.27),
+        ("naca0012", 10.80),
+        ("naca63a015", 4.40),
+    ):
         for mach in (0.3, 0.4, 0.5, 0.6):
             by_hand = (0.1025 + 0.00485 * np.log10(reynolds * mach)) / np.sqrt(1.0 - mach**2)
             assert_allclose(np.deg2rad(load_section(name).lift_slope(mach)), by_hand, rtol=0.02)
@@ -128,7 +134,9 @@ def test_lift_of_the_installed_r8_is_close_to_that_of_the_sc1095() -> None:
     assert r8.chord_ratio == 1.009875
     assert (plain.incidence_offset, plain.chord_ratio) == (0.0, 1.0)
     in_blade_axes = r8.table.zero_lift_alpha(0.3) + r8.incidence_offset
-    assert_allclose(np.rad2deg(in_blade_axes), np.rad2deg(plain.table.zero_lift_alpha(0.3)), atol=0.2)
+    assert_allclose(
+        np.rad2deg(in_blade_axes), np.rad2deg(plain.table.zero_lift_alpha(0.3)), atol=0.2
+    )
 
 
 def test_a_tab_along_the_chord_line_lowers_the_nose_down_moment() -> None:

@@ -28,8 +28,12 @@ def test_error_against_order_agrees_with_published_values() -> None:
     assert sorted(short) == list(range(1, 17))
     for order, cl_short, cl_long, cd_short, cd_long in SURVEY:
         # Two polars converge at not quite the same angles: a few per cent, and a unit of the printed digits.
-        assert_allclose([short[order].cl_rms, longer[order].cl_rms], [cl_short, cl_long], rtol=0.03, atol=1e-4)
-        assert_allclose([short[order].cd_rms, longer[order].cd_rms], [cd_short, cd_long], rtol=0.03, atol=1e-5)
+        assert_allclose(
+            [short[order].cl_rms, longer[order].cl_rms], [cl_short, cl_long], rtol=0.03, atol=1e-4
+        )
+        assert_allclose(
+            [short[order].cd_rms, longer[order].cd_rms], [cd_short, cd_long], rtol=0.03, atol=1e-5
+        )
 
 
 def test_constant_and_flagged_outside_the_fit() -> None:
@@ -39,7 +43,13 @@ def test_constant_and_flagged_outside_the_fit() -> None:
     cl, cd = section([low - 0.3, low, high, high + 0.3])
     assert cl[0] == cl[1]
     assert cd[2] == cd[3]
-    assert section.outside([low - 0.01, low, 0.1, high, high + 0.01]).tolist() == [True, False, False, False, True]
+    assert section.outside([low - 0.01, low, 0.1, high, high + 0.01]).tolist() == [
+        True,
+        False,
+        False,
+        False,
+        True,
+    ]
     # Unheld, the survey's order-10 polynomial has Cl(20 deg) = 11.6.
     assert abs(cl).max() < 1.6
 
@@ -67,10 +77,14 @@ def test_reverse_flow_is_that_of_the_document(pitch_deg: float, u_p: float) -> N
     phi = np.arctan(u_p / u_t)
     lift, drag = section(theta - phi)
     drag = -drag
-    vertical, inplane = lift * np.cos(phi) - drag * np.sin(phi), lift * np.sin(phi) + drag * np.cos(phi)
+    vertical, inplane = (
+        lift * np.cos(phi) - drag * np.sin(phi),
+        lift * np.sin(phi) + drag * np.cos(phi),
+    )
     phi2 = np.arctan2(u_p, u_t)
     at = table(theta - phi2, 0.2)
-    assert_allclose(at.cl * np.cos(phi2) - at.cd * np.sin(phi2), vertical, atol=1e-4)  # the table's own error
+    # the table's own error
+    assert_allclose(at.cl * np.cos(phi2) - at.cd * np.sin(phi2), vertical, atol=1e-4)
     assert_allclose(at.cl * np.sin(phi2) + at.cd * np.cos(phi2), inplane, atol=1e-4)
 
 

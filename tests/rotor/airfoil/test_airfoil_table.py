@@ -52,11 +52,15 @@ def test_value_and_slopes_agree_from_both_sides_of_every_grid_line(name: str) ->
     for v in (0.0, 0.3, 1.0):
         for order in ((0, 0), (1, 0), (0, 1)):  # value, alpha slope, Mach slope
             right = polynomials(table, 0.0, v, *order)
-            left = np.roll(polynomials(table, 1.0, v, *order), 1, axis=0)  # The roll closes the circle at +-180 deg.
+            # The roll closes the circle at +-180 deg.
+            left = np.roll(polynomials(table, 1.0, v, *order), 1, axis=0)
             assert_allclose(left, right, rtol=0, atol=1e-12)
     for u in (0.0, 0.7):
         for order in ((0, 0), (1, 0), (0, 1)):
-            upper, lower = polynomials(table, u, 0.0, *order)[:, 1:], polynomials(table, u, 1.0, *order)[:, :-1]
+            upper, lower = (
+                polynomials(table, u, 0.0, *order)[:, 1:],
+                polynomials(table, u, 1.0, *order)[:, :-1],
+            )
             assert_allclose(lower, upper, rtol=0, atol=1e-12)
 
 
@@ -93,10 +97,14 @@ def test_derivatives_agree_with_central_differences(name: str) -> None:
     alpha=st.floats(-20.0, 20.0, allow_nan=False),
     mach=st.floats(-1.0, 3.0, allow_nan=False),
 )
-def test_values_are_finite_and_periodic_and_drag_is_positive(name: str, alpha: float, mach: float) -> None:
+def test_values_are_finite_and_periodic_and_drag_is_positive(
+    name: str, alpha: float, mach: float
+) -> None:
     table = load_section(name)
     at, turned = table(alpha, mach), table(alpha + 2.0 * np.pi, mach)
-    assert all(np.isfinite(v) for v in (at.cl, at.cd, at.cl_alpha, at.cd_alpha, at.cl_mach, at.cd_mach))
+    assert all(
+        np.isfinite(v) for v in (at.cl, at.cd, at.cl_alpha, at.cd_alpha, at.cl_mach, at.cd_mach)
+    )
     assert 0.004 < at.cd < 2.2
     assert abs(at.cl) < 2.0
     if name in DECKS:  # Slopes are below 20 per rad, and the turn is exact to some 1e-14 rad.
@@ -111,9 +119,16 @@ def test_values_stay_within_the_range_of_the_deck(name: str) -> None:
     alpha = np.linspace(-180.0, 180.0, 7201)
     for j in range(deck.cl.mach.size):
         at = table(np.deg2rad(alpha), deck.cl.mach[j])
-        cell = np.clip(np.searchsorted(deck.cl.alpha_deg, alpha, side="right") - 1, 0, deck.cl.alpha_deg.size - 2)
+        cell = np.clip(
+            np.searchsorted(deck.cl.alpha_deg, alpha, side="right") - 1,
+            0,
+            deck.cl.alpha_deg.size - 2,
+        )
         for got, knots in ((at.cl, deck.cl.values[:, j]), (at.cd, deck.cd.values[:, j])):
-            low, high = np.minimum(knots[cell], knots[cell + 1]), np.maximum(knots[cell], knots[cell + 1])
+            low, high = (
+                np.minimum(knots[cell], knots[cell + 1]),
+                np.maximum(knots[cell], knots[cell + 1]),
+            )
             assert np.all(got >= low - 1e-12)
             assert np.all(got <= high + 1e-12)
 
@@ -129,7 +144,9 @@ def test_stall_angles_are_at_the_bend_of_the_lift_curve(name: str) -> None:
     nearer = {"sc1094r8": 7, "sc1095": 8}.get(name, 9)
     assert np.all(np.diff(positive[:nearer]) < np.deg2rad(0.3))
     for mach, stall in zip((0.3, 0.6), (positive[2], positive[5]), strict=True):
-        slope = table(np.array([stall - 0.01, stall, stall + 0.01]), mach).cl_alpha / table.lift_slope(mach)
+        slope = table(
+            np.array([stall - 0.01, stall, stall + 0.01]), mach
+        ).cl_alpha / table.lift_slope(mach)
         assert slope[0] > 0.25
         assert_allclose(slope[1], 0.25, atol=0.02)  # linear search step of 0.1 deg
 
@@ -171,7 +188,9 @@ def test_attached_lift_has_no_largest_value_below_a_right_angle(name: str):
         zero, slope = float(table.zero_lift_alpha(mach)), float(table.lift_slope(mach))
         lift = attached(zero + np.deg2rad(np.arange(-90.0, 91.0)), mach).cl
         assert (np.diff(lift) > 0.0).all()
-        assert_allclose(lift[[0, 60, 120, 180]], slope * np.array([-1.0, -0.5, 0.5, 1.0]), rtol=1e-3)
+        assert_allclose(
+            lift[[0, 60, 120, 180]], slope * np.array([-1.0, -0.5, 0.5, 1.0]), rtol=1e-3
+        )
         near = zero + np.deg2rad([-2.0, 2.0])
         assert_allclose(np.diff(attached(near, mach).cl), np.diff(table(near, mach).cl), rtol=1e-3)
 

@@ -50,7 +50,10 @@ def polar(reynolds: float, power: float = -0.2, mach: float = 0.0) -> Polar:
 
 def polar_text(one: Polar) -> str:
     rows = zip(one.alpha_deg, one.cl, one.cd, one.cm, strict=True)
-    return "\n".join(f"{one.mach:g},{one.reynolds:.0f},{a:.2f},{cl:.6f},{cd:.8f},{cm:g}" for a, cl, cd, cm in rows)
+    return "\n".join(
+        f"{one.mach:g},{one.reynolds:.0f},{a:.2f},{cl:.6f},{cd:.8f},{cm:g}"
+        for a, cl, cd, cm in rows
+    )
 
 
 @cache
@@ -87,9 +90,13 @@ def test_polars_are_sorted_by_reynolds_number_and_filled_at_other_mach_numbers()
 
 
 def test_two_polars_of_one_reynolds_number_and_too_many_are_refused():
-    with pytest.raises(ValueError, match="two polars of mine have Mach 0 and Reynolds number 100,000: keep one"):
+    with pytest.raises(
+        ValueError, match="two polars of mine have Mach 0 and Reynolds number 100,000: keep one"
+    ):
         drone(knots=(100e3, 200e3, 100.5e3))
-    with pytest.raises(ValueError, match=r"my\.toml, line 16: the polars of mine have 13 Reynolds numbers: keep 12"):
+    with pytest.raises(
+        ValueError, match=r"my\.toml, line 16: the polars of mine have 13 Reynolds numbers: keep 12"
+    ):
         drone(knots=tuple(1e4 * 1.5**k for k in range(13)))
 
 
@@ -100,7 +107,10 @@ def test_an_element_takes_the_data_of_its_own_reynolds_number():
     number = 3000.0 * np.pi / 30.0 * 0.3556 * disk.r * 0.035 * air.density / air.viscosity
     assert number.min() < KNOTS[0] < number.max() < KNOTS[-1]
     cd_zero = [item.table(0.0, 0.1).cd for item in disk.sections]
-    ours = [(1.0 - w) * cd_zero[a] + w * cd_zero[b] for (a, b), w in zip(disk.section, disk.weight, strict=True)]
+    ours = [
+        (1.0 - w) * cd_zero[a] + w * cd_zero[b]
+        for (a, b), w in zip(disk.section, disk.weight, strict=True)
+    ]
     by_hand = np.interp(np.log(number), np.log(KNOTS), [polar(knot).cd[20] for knot in KNOTS])
     assert ALPHA[20] == 0.0
     assert_allclose(ours, by_hand, rtol=2e-3)  # Decks have five decimals.
@@ -112,21 +122,28 @@ def test_a_reynolds_number_on_a_knot_is_that_table_alone():
     between = section.one_at(150e3).table(0.05, 0.2)
     (low, first), (high, second) = section.at(150e3)
     assert first + second == pytest.approx(1.0)
-    assert_allclose(between.cd, first * low.table(0.05, 0.2).cd + second * high.table(0.05, 0.2).cd, rtol=1e-12)
+    assert_allclose(
+        between.cd, first * low.table(0.05, 0.2).cd + second * high.table(0.05, 0.2).cd, rtol=1e-12
+    )
     at_an_end = make_design(rotor=drone(), mu=0.0, altitude_m=0.0)
     alone = drone(knots=(400e3,))
-    fast = replace(at_an_end, rotor=replace(at_an_end.rotor, angular_speed=at_an_end.rotor.angular_speed * 1e4))
+    fast = replace(
+        at_an_end, rotor=replace(at_an_end.rotor, angular_speed=at_an_end.rotor.angular_speed * 1e4)
+    )
     assert {item.table.name for item in build_problem(fast).disk.sections} == {"mine"}
     assert set(build_problem(fast).disk.section.ravel()) == {3}
     assert_allclose(
-        build_problem(fast).disk.tables[3], alone.rotor.blade.installed("mine").table.coefficients, rtol=1e-12
+        build_problem(fast).disk.tables[3],
+        alone.rotor.blade.installed("mine").table.coefficients,
+        rtol=1e-12,
     )
 
 
 def test_data_that_do_not_depend_on_it_give_the_answer_of_one_polar():
     for mu in (0.0, 0.2):
         several, one = (
-            solve(make_design(rotor=drone(0.0, knots), mu=mu, inflow="drees")) for knots in (KNOTS, KNOTS[:1])
+            solve(make_design(rotor=drone(0.0, knots), mu=mu, inflow="drees"))
+            for knots in (KNOTS, KNOTS[:1])
         )
         assert several.require().power.shaft == pytest.approx(one.require().power.shaft, rel=1e-9)
 
@@ -138,12 +155,16 @@ def test_a_small_rotor_gains_by_speed():
     for speed in speeds:
         craft = drone(knots=knots, toml=DRONE.replace("3000.0", f"{speed}"))
         design = make_design(rotor=craft, trim="wind-tunnel", mu=0.0, stand={"ct_over_sigma": 0.09})
-        solution = solve(replace(design, models=replace(design.models, compressibility=False))).require()
+        solution = solve(
+            replace(design, models=replace(design.models, compressibility=False))
+        ).require()
         merit.append(solution.ct**1.5 / 2.0**0.5 / solution.cp)
         profile.append(solution.power.profile / design.power_unit)
     assert merit[-1] - merit[0] > 0.05
     assert np.all(np.diff(merit) > 0.0)
-    assert_allclose(np.array(profile) / profile[0], (np.array(speeds) / speeds[0]) ** -0.2, rtol=3e-3)
+    assert_allclose(
+        np.array(profile) / profile[0], (np.array(speeds) / speeds[0]) ** -0.2, rtol=3e-3
+    )
 
 
 def test_power_adds_up_and_its_slope_by_twist_is_exact():
@@ -152,19 +173,28 @@ def test_power_adds_up_and_its_slope_by_twist_is_exact():
 
     def at(rate: float) -> Design:
         stand = {"ct_over_sigma": 0.07, "shaft_tilt_deg": 4.0}
-        return make_design(rotor=craft, trim="wind-tunnel", mu=0.2, twist=f"linear:{rate:.9g}", stand=stand)
+        return make_design(
+            rotor=craft, trim="wind-tunnel", mu=0.2, twist=f"linear:{rate:.9g}", stand=stand
+        )
 
     solution = solve(at(-8.0), options=exactly).require()
     assert len({*build_problem(solution.design).disk.section.ravel().tolist()}) > 2
     assert solution.power.shaft == pytest.approx(solution.power.main_rotor, rel=1e-9)
     slope = float(power_gradient(solution).along((solution.disk.r - 0.75)[None])[0])
-    ends = [solve(at(-8.0 + step), solution, exactly).require().power.total for step in (0.001, -0.001)]
+    ends = [
+        solve(at(-8.0 + step), solution, exactly).require().power.total for step in (0.001, -0.001)
+    ]
     assert (ends[0] - ends[1]) / np.deg2rad(0.002) == pytest.approx(slope, rel=2e-5)
 
 
 def test_reynolds_numbers_beyond_the_data_are_said():
-    said = [caveat.sentence for caveat in solve(make_design(rotor=drone(), mu=0.0)).require().caveats]
-    assert any("R the Reynolds number is" in one and "the data of mine at 50,000 are used there" in one for one in said)
+    said = [
+        caveat.sentence for caveat in solve(make_design(rotor=drone(), mu=0.0)).require().caveats
+    ]
+    assert any(
+        "R the Reynolds number is" in one and "the data of mine at 50,000 are used there" in one
+        for one in said
+    )
     wide = solve(make_design(rotor=drone(knots=(5e3, 1e6)), mu=0.0)).require()
     assert "reynolds-outside-data" not in [caveat.name for caveat in wide.caveats]
 
@@ -180,7 +210,10 @@ def test_between_two_spans_each_section_has_its_own_reynolds_number():
 
     rotor = drone().rotor
     spans = (Span(0.15, 0.5, "one"), Span(0.7, 1.0, "other"))
-    rotor = replace(rotor, blade=replace(rotor.blade, spans=spans, own_sections=(own("one", 1.0), own("other", 2.0))))
+    rotor = replace(
+        rotor,
+        blade=replace(rotor.blade, spans=spans, own_sections=(own("one", 1.0), own("other", 2.0))),
+    )
     design = replace(make_design(rotor=drone(), mu=0.2, inflow="drees"), rotor=rotor)
     disk, blade = build_problem(design).disk, rotor.blade
     inside = [k for k, r in enumerate(disk.r) if 0.5 < r < 0.7]

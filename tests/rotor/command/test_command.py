@@ -45,12 +45,23 @@ def test_json_keys_and_power(answer: Answer):
     assert list(found) == [*KEYS, *VIBRATION]
     power = found["power_w"]
     assert list(power) == ["total", "main_rotor", "induced", "profile", "parasite", "climb", "tail"]
-    assert_allclose(power["main_rotor"], power["induced"] + power["profile"] + power["parasite"], rtol=1e-12)
+    assert_allclose(
+        power["main_rotor"], power["induced"] + power["profile"] + power["parasite"], rtol=1e-12
+    )
     assert_allclose(power["total"], power["main_rotor"] + power["tail"], rtol=1e-12)
     assert (found["status"], found["twist"]) == ("converged", "linear:-8")
     assert_allclose(found["speed_m_s"], 0.2 * 27.0 * 8.1788, rtol=1e-12)
     loads = found["hub_loads"]
-    assert list(loads) == ["per_rev", "fx_n", "fy_n", "fz_n", "mx_nm", "my_nm", "index_percent", "band_percent"]
+    assert list(loads) == [
+        "per_rev",
+        "fx_n",
+        "fy_n",
+        "fz_n",
+        "mx_nm",
+        "my_nm",
+        "index_percent",
+        "band_percent",
+    ]
     assert loads["band_percent"][0] <= loads["index_percent"] <= loads["band_percent"][1]
     force = math.hypot(0.5 * loads["fx_n"], 0.67 * loads["fy_n"], loads["fz_n"])
     moment = math.hypot(loads["mx_nm"], loads["my_nm"]) / 8.1788
@@ -60,13 +71,24 @@ def test_json_keys_and_power(answer: Answer):
 
 
 def test_without_hub_loads_a_note_says_why(printed: Printed, answer: Answer):
-    slow, unknown = answer("solve", "--mu", "0.1"), answer("solve", "--rotor", "r22", "--mu", "0.25")
+    slow, unknown = (
+        answer("solve", "--mu", "0.1"),
+        answer("solve", "--rotor", "r22", "--mu", "0.25"),
+    )
     assert slow["hub_loads"] is unknown["hub_loads"] is unknown["blade_frequencies_per_rev"] is None
     assert "Hub loads are not shown below µ 0.2" in slow["hub_loads_note"]
     assert "blade in flap and lag is not known" in unknown["hub_loads_note"]
     assert slow["caveats"] == [one.sentence for one in solve(make_design(mu=0.1)).caveats]
     out = printed("solve", "--mu", "0.3", "--bending")
-    for words in ("converged: Trimmed.", "induced", "kW", "collective", "L/D_e", "σ 0.0821", "hub loads at 4/rev: fx"):
+    for words in (
+        "converged: Trimmed.",
+        "induced",
+        "kW",
+        "collective",
+        "L/D_e",
+        "σ 0.0821",
+        "hub loads at 4/rev: fx",
+    ):
         assert words in out
 
 
@@ -77,14 +99,18 @@ def test_distribution(printed: Printed, answer: Answer):
     found = whole["distribution"]
     assert len(found["lift_n_per_m"]) == len(found["cm"]) == len(found["r"])
     assert len(found["lift_n_per_m"][0]) == len(found["psi_deg"])
-    assert "lift of one blade\n   r/R  mean N/m   max N/m   at ψ" in printed("solve", "--distribution")
+    assert "lift of one blade\n   r/R  mean N/m   max N/m   at ψ" in printed(
+        "solve", "--distribution"
+    )
     heavy = ("solve", "--mu", "0.5", "--mass-kg", "11000", "--distribution")
     assert answer(*heavy, code=1)["distribution"] is None
     assert "lift of one blade" not in printed(*heavy, code=1)
 
 
 def test_an_optimum_beyond_autorotation_is_refused(printed: Printed):
-    out = printed("optimise", "--mu", "0.2", "--climb-m-s=-14", "--starts", "1", "--no-band", code=1)
+    out = printed(
+        "optimise", "--mu", "0.2", "--climb-m-s=-14", "--starts", "1", "--no-band", code=1
+    )
     assert "descend more slowly, or use the objective induced" in " ".join(out.split())
 
 
@@ -113,7 +139,9 @@ def test_caveats_of_blades_that_nobody_builds(flags: list[str], words: str, answ
 
 def test_sweep_table_and_csv(printed: Printed, answer: Answer, tmp_path: Path):
     path = tmp_path / "sweep.csv"
-    out = printed("sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16", "--csv", str(path))
+    out = printed(
+        "sweep", "--mu", "0.1:0.3:0.1", "--twist", "linear:-8", "linear:-16", "--csv", str(path)
+    )
     rows = list(csv.DictReader(path.read_text(encoding="utf-8").splitlines()))
     assert [row["mu"] for row in rows] == ["0.1", "0.2", "0.3"] * 2
     assert {row["twist"] for row in rows} == {"linear:-8", "linear:-16"}
@@ -124,7 +152,9 @@ def test_sweep_table_and_csv(printed: Printed, answer: Answer, tmp_path: Path):
     heads = re.split(" {2,}", out.splitlines()[0])  # Headings stand apart.
     assert [head.replace(" kW", "_w").replace(" ", "_") for head in heads] == level
     assert max(map(len, out.splitlines())) <= 100
-    compared = printed("sweep", "--mu", "0.2", "--twist", "linear:-8", "--relative-to", "linear:-8", *QUICK)
+    compared = printed(
+        "sweep", "--mu", "0.2", "--twist", "linear:-8", "--relative-to", "linear:-8", *QUICK
+    )
     assert re.split(" {2,}", compared.splitlines()[0])[-3:] == ["change %", "± %", "sureness"]
     single = answer("solve", "--mu", "0.2", "--twist", "linear:-8")
     assert_allclose(float(rows[1]["power_total_w"]), single["power_w"]["total"], rtol=1e-9)
@@ -134,12 +164,14 @@ def test_airfoil_as_table_and_as_json(printed: Printed, answer: Answer):
     show = "airfoil", "show"
     point = answer(*show, "sc1095", "--mach", "0.7", "--alpha", "4")
     assert list(point) == ["cl", "cd", "cm"]
-    assert_allclose([point["cl"], point["cd"], point["cm"]], [0.72, 0.036, 0.001], atol=0.06)  # The C81 deck.
+    # The C81 deck.
+    assert_allclose([point["cl"], point["cd"], point["cm"]], [0.72, 0.036, 0.001], atol=0.06)
     assert answer(*show, "sc1095-thesis", "--mach", "0.3", "--alpha", "4")["cm"] is None
     found = answer(*show, "sc1094r8")
     assert found["incidence_offset_deg"] == 1.0
     k = found["mach"].index(0.3)
-    assert_allclose(found["cl_alpha_per_deg"][k], 0.1104, rtol=0.01)  # McCroskey's, as in the data tests
+    # McCroskey's, as in the data tests
+    assert_allclose(found["cl_alpha_per_deg"][k], 0.1104, rtol=0.01)
     assert_allclose(found["cm_at_0_deg"][k], -0.0236, atol=1e-3)
     for name in ("sc1095", "sc1095-thesis"):
         shown = printed(*show, name)
@@ -158,9 +190,27 @@ def test_ranges():
 @pytest.mark.parametrize(
     "flags",
     [
-        ("--trim", "wind-tunnel", "--shaft-tilt-deg", "5", "--ct-over-sigma", "0.075", "--tip-mach", "0.6"),
+        (
+            "--trim",
+            "wind-tunnel",
+            "--shaft-tilt-deg",
+            "5",
+            "--ct-over-sigma",
+            "0.075",
+            "--tip-mach",
+            "0.6",
+        ),
         ("--trim", "free-rotor", "--collective-deg", "2", "--mu", "0.3"),
-        ("--trim", "controls", "--collective-deg", "7", "--cyclic-1s-deg", "-4", "--density", "1.1"),
+        (
+            "--trim",
+            "controls",
+            "--collective-deg",
+            "7",
+            "--cyclic-1s-deg",
+            "-4",
+            "--density",
+            "1.1",
+        ),
         ("--trim", "wind-tunnel", "--thrust-n", "60000", "--hover"),
     ],
 )
@@ -169,12 +219,20 @@ def test_trims_of_a_test_stand(answer: Answer, flags: tuple[str, ...]):
     assert found["trim"] == flags[1]
     for key in {"ct_over_sigma", "collective_deg"} & found["stand"].keys():
         assert_allclose(found[key], found["stand"][key], rtol=1e-9)
-    assert_allclose(found["power_w"]["total"], found["shaft_torque_nm"] * 27.02, rtol=2e-3, atol=1.0)
-    assert_allclose(found["cq_over_sigma"], found["cq"] * found["ct_over_sigma"] / found["ct"], rtol=1e-9)
+    assert_allclose(
+        found["power_w"]["total"], found["shaft_torque_nm"] * 27.02, rtol=2e-3, atol=1.0
+    )
+    assert_allclose(
+        found["cq_over_sigma"], found["cq"] * found["ct_over_sigma"] / found["ct"], rtol=1e-9
+    )
 
 
 def test_a_sweep_goes_over_any_quantity_of_flight_and_hover(printed: Printed, answer: Answer):
-    rows = [*csv.DictReader(io.StringIO(printed("sweep", "--speed-kt", "60:100:20", "--csv", "-", *QUICK)))]
+    rows = [
+        *csv.DictReader(
+            io.StringIO(printed("sweep", "--speed-kt", "60:100:20", "--csv", "-", *QUICK))
+        )
+    ]
     assert [float(row["speed_kt"]) for row in rows] == [60.0, 80.0, 100.0]
     rows = answer("sweep", "--mu", "0.2", "--mass-kg", "7000,8000", *QUICK)
     assert [row["mass_kg"] for row in rows] == [7000.0, 8000.0]
@@ -184,14 +242,28 @@ def test_a_sweep_goes_over_any_quantity_of_flight_and_hover(printed: Printed, an
 
 
 def test_a_stand_says_its_altitude_and_a_model_rotor_its_torque(printed: Printed):
-    out = printed("solve", "--rotor", "knight-hefner-3", "--hover", "--ct-over-sigma", "0.01", "--altitude-m", "900")
+    out = printed(
+        "solve",
+        "--rotor",
+        "knight-hefner-3",
+        "--hover",
+        "--ct-over-sigma",
+        "0.01",
+        "--altitude-m",
+        "900",
+    )
     assert "flapping trimmed, 900 m" in out
     assert re.search(r"torque 0\.\d{3} N m", out)
 
 
 def test_keys_of_the_json_are_documented(answer: Answer):
     found = answer("solve", "--mu", "0.3", "--bending", "--doubt")
-    assert (found["schema"], found["rotor"], found["mass_kg"], found["altitude_m"]) == (SCHEMA, "UH-60A", 8322.4, 0.0)
+    assert (found["schema"], found["rotor"], found["mass_kg"], found["altitude_m"]) == (
+        SCHEMA,
+        "UH-60A",
+        8322.4,
+        0.0,
+    )
     assert found["version"]
     documented = set(re.findall(r"`([a-z][a-z0-9_]*)`", FORMATS[FORMATS.index("(solve-json)=") :]))
     assert set(found) <= documented
@@ -219,7 +291,9 @@ def test_bash_completes_commands_and_flags(printed: Printed):
     script = printed("completion")
     for words, expected in (("rotor so", "solve"), ("rotor solve --dou", "--doubt")):
         last = len(words.split()) - 1
-        program = f'{script}\nCOMP_WORDS=({words})\nCOMP_CWORD={last}\n_rotor\necho "${{COMPREPLY[@]}}"'
+        program = (
+            f'{script}\nCOMP_WORDS=({words})\nCOMP_CWORD={last}\n_rotor\necho "${{COMPREPLY[@]}}"'
+        )
         done = subprocess.run(["bash", "-c", program], capture_output=True, text=True, check=True)
         assert done.stdout.split() == [expected]
 
@@ -231,6 +305,10 @@ def test_a_sweep_prints_each_caveat_once_and_none_is_lost(printed: Printed):
     coarse: Any = {"inflow": "uniform", "elements": 12, "azimuths": 24}
     designs = (make_design(rotor="s61", mu=mu, twist="linear:-30", **coarse) for mu in (0.1, 0.2))
     solutions = list(map(solve, designs))
-    first = {re.sub(r"[\d.]+", "", one.sentence): one.sentence for each in reversed(solutions) for one in each.caveats}
+    first = {
+        re.sub(r"[\d.]+", "", one.sentence): one.sentence
+        for each in reversed(solutions)
+        for one in each.caveats
+    }
     assert len(first) > 2
     assert words.count("caveat: ") == len(first)

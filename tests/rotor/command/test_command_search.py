@@ -27,11 +27,19 @@ def test_optimise_json(answer: Answer):
     found = answer("optimise", "--concept", "two-segment", "--mu", "0.25", "--starts", "2")
     assert list(found)[: len(CONTRACT)] == CONTRACT
     assert found["status"] == "converged"
-    assert list(found["parameters"]) == list(found["band"]) == ["inboard_rate_deg", "outboard_rate_deg"]
+    assert (
+        list(found["parameters"])
+        == list(found["band"])
+        == ["inboard_rate_deg", "outboard_rate_deg"]
+    )
     for name, value in found["parameters"].items():
         assert found["band"][name][0] <= value <= found["band"][name][1]
     assert found["local_minima"][0]["power_w"] == found["power_w"]
-    assert_allclose(found["saving_percent"], 100 * (1 - found["power_w"] / found["baseline_power_w"]), rtol=1e-12)
+    assert_allclose(
+        found["saving_percent"],
+        100 * (1 - found["power_w"] / found["baseline_power_w"]),
+        rtol=1e-12,
+    )
     # The SPEC is the answer: `solve` takes it and finds the same power.
     again = answer("solve", "--mu", "0.25", "--twist", found["twist"])
     assert_allclose(again["power_w"]["total"], found["power_w"], rtol=1e-7)
@@ -62,7 +70,8 @@ def test_two_airfoils_are_also_compared_on_their_own_sections(answer: Answer):
     found = answer("optimise", "--concept", "two-segment-two-airfoils", *flags)
     assert any("not by their airfoils" in one for one in found["caveats"])
     same = answer("optimise", *flags)
-    assert found["baseline_power_w"] == pytest.approx(same["baseline_power_w"], rel=SAME)  # That of all other concepts.
+    # That of all other concepts.
+    assert found["baseline_power_w"] == pytest.approx(same["baseline_power_w"], rel=SAME)
     assert same["same_airfoils_power_w"] is None
     alone = answer("solve", "--preset", "thesis", "--mu", "0.2", "--airfoils", found["airfoils"])
     assert_allclose(found["same_airfoils_power_w"], alone["power_w"]["total"], rtol=1e-9)
@@ -87,7 +96,9 @@ def test_flags_set_the_search(answer: Answer, tmp_path: Path):
 
 
 def test_not_converged_is_exit_1_with_nulls(answer: Answer):
-    found = answer("optimise", "--hover", "--mass-kg", "20000", "--altitude-m", "4000", "--starts", "1", code=1)
+    found = answer(
+        "optimise", "--hover", "--mass-kg", "20000", "--altitude-m", "4000", "--starts", "1", code=1
+    )
     assert (found["status"], found["twist"], found["power_w"]) == ("not-converged", None, None)
 
 
@@ -99,8 +110,15 @@ def test_schedule_json_and_csv(answer: Answer, tmp_path: Path):
         "--processes", "1", "--csv", str(table),
     )  # fmt: skip
     assert list(found) == ["status", "concepts", "objective", "conditions", "fixed", "worth"]
-    assert found["concepts"] == ["linear", "two-segment"]  # Simple ones first, whatever the order of the flags.
-    assert [(condition["mu"], condition["climb_m_s"]) for condition in found["conditions"]] == [(0.0, 2.0), (0.2, 2.0)]
+    # Simple ones first, whatever the order of the flags.
+    assert found["concepts"] == [
+        "linear",
+        "two-segment",
+    ]
+    assert [(condition["mu"], condition["climb_m_s"]) for condition in found["conditions"]] == [
+        (0.0, 2.0),
+        (0.2, 2.0),
+    ]
     for name in found["concepts"]:
         worth = found["worth"][name]
         moving = [condition["optima"][name]["power_w"] for condition in found["conditions"]]
@@ -129,13 +147,23 @@ def test_ctrl_c_prints_the_best_so_far(answer: Answer, monkeypatch: pytest.Monke
     assert found["twist"].startswith("segments:")
 
 
-def test_ctrl_c_on_a_schedule_prints_the_results_so_far(answer: Answer, monkeypatch: pytest.MonkeyPatch):
+def test_ctrl_c_on_a_schedule_prints_the_results_so_far(
+    answer: Answer, monkeypatch: pytest.MonkeyPatch
+):
     @contextmanager
     def bar(*_: object) -> Iterator[Callable[[str], None]]:
-        yield lambda words: signal.raise_signal(signal.SIGINT) if words == "linear condition 2" else None
+        yield (
+            lambda words: (
+                signal.raise_signal(signal.SIGINT) if words == "linear condition 2" else None
+            )
+        )
 
     monkeypatch.setattr("rotor.command.common.bar", bar)
     flags = ("--mu", "0.1:0.3:0.1", "--inflow", "uniform", "--starts", "1", "--processes", "1")
     found = answer("schedule", "--concept", "linear", *flags, code=130)
     assert found["status"] == "stopped"
-    assert [one["optima"]["linear"] is not None for one in found["conditions"]] == [True, True, False]
+    assert [one["optima"]["linear"] is not None for one in found["conditions"]] == [
+        True,
+        True,
+        False,
+    ]

@@ -26,7 +26,11 @@ def turning(design: Design, *harmonics: Harmonic, **shape: tuple[float, ...]) ->
 
 
 def driven(
-    design: Design, installed: InstalledActuator, per_rev: int, share: float = 1.0, phase: float = 0.0
+    design: Design,
+    installed: InstalledActuator,
+    per_rev: int,
+    share: float = 1.0,
+    phase: float = 0.0,
 ) -> Design:
     """The blade with the plies on it and a share of their amplitude, in the shape that they twist a blade at rest."""
     at_rest = installed.rest_shapes.sum(axis=0)
@@ -36,14 +40,21 @@ def driven(
 
 
 def mfc(design: Design, plies: int = 2, host: HostBlade | None = None) -> InstalledActuator:
-    return install(find_actuator("MFC_P1"), default_placement(plies), host or HostBlade(), design.rotor)
+    return install(
+        find_actuator("MFC_P1"), default_placement(plies), host or HostBlade(), design.rotor
+    )
 
 
 def powers(design: Design, installed: InstalledActuator) -> tuple[list[Design], np.ndarray]:
     """2/rev at twelve phases, and the power that each changes of the blade that is not driven [W]."""
-    waves = [driven(design, installed, 2, phase=phase) for phase in np.linspace(0.0, math.tau, 12, endpoint=False)]
+    waves = [
+        driven(design, installed, 2, phase=phase)
+        for phase in np.linspace(0.0, math.tau, 12, endpoint=False)
+    ]
     still = solve(replace(waves[0], active_twist=None)).require()
-    return waves, np.array([solve(wave, still).require().power.total - still.power.total for wave in waves])
+    return waves, np.array(
+        [solve(wave, still).require().power.total - still.power.total for wave in waves]
+    )
 
 
 def test_uniform_once_per_revolution_twist_is_cyclic_pitch():
@@ -55,7 +66,9 @@ def test_uniform_once_per_revolution_twist_is_cyclic_pitch():
     assert_allclose(solution.power.total, plain.power.total, rtol=1e-9)
     shift = 2.0 * DEGREE * np.array([math.cos(0.5), math.sin(0.5)])
     cyclic = [solution.controls.cyclic_1c, solution.controls.cyclic_1s]
-    assert_allclose(np.array(cyclic) + shift, [plain.controls.cyclic_1c, plain.controls.cyclic_1s], atol=1e-9)
+    assert_allclose(
+        np.array(cyclic) + shift, [plain.controls.cyclic_1c, plain.controls.cyclic_1s], atol=1e-9
+    )
 
 
 def test_twice_per_revolution_saves_power_at_high_speed():
@@ -83,7 +96,8 @@ def test_in_thin_air_the_trim_answers_the_plies_as_a_beam(per_rev: int):
     installed = mfc(design)
     installed = replace(installed, blade=replace(installed.blade, control_stiffness=1e9))
     moved, still = (
-        tip_wave(solve(one).require(), per_rev) for one in (driven(design, installed, per_rev), installed.on(design))
+        tip_wave(solve(one).require(), per_rev)
+        for one in (driven(design, installed, per_rev), installed.on(design))
     )
     moved -= still
     assert abs(moved) == pytest.approx(in_vacuum(installed, per_rev), rel=0.01)
@@ -120,7 +134,9 @@ def test_the_saving_grows_with_speed():
     net = list[float]()
     for mu in (0.15, 0.35):
         design = make_design(mu=mu)
-        installed = install(find_actuator("MFC_P1_HT"), default_placement(1), HostBlade(), design.rotor)
+        installed = install(
+            find_actuator("MFC_P1_HT"), default_placement(1), HostBlade(), design.rotor
+        )
         waves, changes = powers(design, installed)
         loaded = with_actuator_mass(waves[int(changes.argmin())], installed)
         net.append(effect(loaded, design).power[0])

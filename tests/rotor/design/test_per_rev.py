@@ -30,11 +30,15 @@ from tests.torsion_waves import driven_by_its_root, tip_wave
 @pytest.mark.parametrize("per_rev", range(2, 9))
 def test_the_pitch_of_a_rigid_blade_has_the_wave(per_rev: int):
     """θ = θ_tw + θ0 + θ1c cos ψ + θ1s sin ψ + A cos(Nψ − φ) at every element and azimuth."""
-    design = make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev=[(per_rev, 0.8, 70.0)], off="elastic-twist")
+    design = make_design(
+        mu=0.2, inflow="pitt-peters", pitch_per_rev=[(per_rev, 0.8, 70.0)], off="elastic-twist"
+    )
     solution = solve(design).require()
     disk, controls, psi = solution.disk, solution.controls, solution.disk.psi
     wave = math.radians(0.8) * np.cos(per_rev * psi - math.radians(70.0))
-    wave += controls.collective + controls.cyclic_1c * np.cos(psi) + controls.cyclic_1s * np.sin(psi)
+    wave += (
+        controls.collective + controls.cyclic_1c * np.cos(psi) + controls.cyclic_1s * np.sin(psi)
+    )
     assert_allclose(disk.theta, design.twist(disk.r)[:, None] + wave, atol=1e-12)
 
 
@@ -66,7 +70,9 @@ def in_thin_air(pitch: str, **changes: object) -> Design:
     Frequencies stay, and the air holds it thirty times less.
     """
     stand = Stand(collective=0.05, density=0.05, tip_mach=0.6)
-    design = make_design(mu=0.2, trim="wind-tunnel", stand=stand, inflow="pitt-peters", pitch_per_rev=pitch)
+    design = make_design(
+        mu=0.2, trim="wind-tunnel", stand=stand, inflow="pitt-peters", pitch_per_rev=pitch
+    )
     structure = design.rotor.blade.structure
     assert structure is not None
     heavy = replace(
@@ -77,7 +83,9 @@ def in_thin_air(pitch: str, **changes: object) -> Design:
         control_stiffness=30.0 * structure.control_stiffness,
     )
     made = replace(heavy, **changes)
-    design = replace(design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, structure=made)))
+    design = replace(
+        design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, structure=made))
+    )
     return replace(design, models=replace(design.models, swept_tip=False))
 
 
@@ -106,8 +114,12 @@ def test_a_blade_on_its_controls_answers_root_pitch_as_a_beam(per_rev: int):
 def test_both_are_off_in_hover_and_the_wake_lies_where_it_lay():
     solution = solve(make_design(mu=0.0, pitch_per_rev="3:2:0", twist_per_rev="2:1:0")).require()
     assert_same_trim(solution, solve(make_design(mu=0.0)))
-    assert {"root-pitch-rests", "active-twist-rests"} <= {caveat.name for caveat in solution.caveats}
-    plain, moved = (solve(make_design(mu=0.15, pitch_per_rev=pitch)).require() for pitch in ("", "3:1:0"))
+    assert {"root-pitch-rests", "active-twist-rests"} <= {
+        caveat.name for caveat in solution.caveats
+    }
+    plain, moved = (
+        solve(make_design(mu=0.15, pitch_per_rev=pitch)).require() for pitch in ("", "3:1:0")
+    )
     assert course_of(Analysis(plain).linear.problem) == course_of(Analysis(moved).linear.problem)
 
 
@@ -115,7 +127,9 @@ def test_what_the_models_leave_out_is_said():
     def names(solution: Solution) -> list[str]:
         return [caveat.name for caveat in solution.require().caveats]
 
-    assert not {"fast-pitch", "control-power"} & set(names(solve(make_design(mu=0.2, pitch_per_rev="3:1:180"))))
+    assert not {"fast-pitch", "control-power"} & set(
+        names(solve(make_design(mu=0.2, pitch_per_rev="3:1:180")))
+    )
     assert "fast-pitch" not in names(solve(make_design(mu=0.2, pitch_per_rev="5:3:0")))
     solution = solve(make_design(mu=0.2, pitch_per_rev="5:3:0", off="unsteady"))
     assert {"fast-pitch", "control-power"} <= set(names(solution))
@@ -129,7 +143,12 @@ def test_all_ways_of_writing_are_one():
         {"per_rev": 2, "amplitude_deg": 1.5, "phase_deg": 90},
         {"per_rev": 3, "amplitude_deg": 0.4, "phase_deg": 10},
     )
-    for pitch in ([(3, 0.4, 10), (2, 1.5, 90)], as_rows, as_text.pitch_per_rev, [[2, 1.5, 90], as_rows[1], (4, 0, 0)]):
+    for pitch in (
+        [(3, 0.4, 10), (2, 1.5, 90)],
+        as_rows,
+        as_text.pitch_per_rev,
+        [[2, 1.5, 90], as_rows[1], (4, 0, 0)],
+    ):
         assert make_design(pitch_per_rev=pitch, twist_per_rev=[(2, 1, 0)]) == as_text
     assert read_harmonics(harmonics_text(as_text.pitch_per_rev), "again") == as_text.pitch_per_rev
 
@@ -140,7 +159,9 @@ def test_text_holds_all_digits(phase: float):
     made = (Harmonic(2, 0.0123456789, phase), Harmonic(7, 0.1, phase / 3.0))
     read = read_harmonics(harmonics_text(made), "again")
     for one, other in zip(made, read, strict=True):
-        assert_allclose([one.amplitude, one.phase], [other.amplitude, other.phase], rtol=5e-16, atol=1e-18)
+        assert_allclose(
+            [one.amplitude, one.phase], [other.amplitude, other.phase], rtol=5e-16, atol=1e-18
+        )
     assert read_harmonics(harmonics_text(read), "again") == read
 
 
@@ -161,22 +182,39 @@ def test_design_files_hold_both(tmp_path: Path):
     shaped = replace(design, active_twist=ActiveTwist((Harmonic(2, 0.02),), (0.3, 1.0)))
     assert "twist_per_rev" not in shaped.to_dict()
     assert design_from_record(shaped.to_dict()).active_twist == shaped.active_twist
-    alone = design_from_record({"active_twist": {"harmonics": [{"per_rev": 2, "amplitude_deg": 1}]}}).active_twist
+    alone = design_from_record(
+        {"active_twist": {"harmonics": [{"per_rev": 2, "amplitude_deg": 1}]}}
+    ).active_twist
     assert alone == ActiveTwist((Harmonic(2, math.radians(1.0)),), (0.13, 1.0), (0.0, 1.0))
     with pytest.raises(ValueError, match="both"):
         design_from_record({**record, "active_twist": shaped.to_dict()["active_twist"]})
 
 
-def test_on_the_command_line(tmp_path: Path, printed: Callable[..., str], answer: Callable[..., Any]):
+def test_on_the_command_line(
+    tmp_path: Path, printed: Callable[..., str], answer: Callable[..., Any]
+):
     """Flags, what is printed, JSON; over a design file a flag counts, and zero takes away."""
-    flags = ["--mu", "0.2", "--inflow", "pitt-peters", "--pitch-per-rev", "3:1:180", "--twist-per-rev", "2:1.5:57"]
+    flags = [
+        "--mu",
+        "0.2",
+        "--inflow",
+        "pitt-peters",
+        "--pitch-per-rev",
+        "3:1:180",
+        "--twist-per-rev",
+        "2:1.5:57",
+    ]
     out = printed("solve", *flags)
     assert "root pitch 3/rev ±1.00°, phase 180°" in out
     assert "active twist 2/rev ±1.50°, phase 57°" in out
     found = answer("solve", *flags)
     assert found["pitch_per_rev"] == [{"per_rev": 3, "amplitude_deg": 1.0, "phase_deg": 180.0}]
-    assert found["active_twist"]["harmonics"] == [{"per_rev": 2, "amplitude_deg": 1.5, "phase_deg": 57.0}]
-    design = make_design(mu=0.2, inflow="pitt-peters", pitch_per_rev="3:1:180", twist_per_rev="2:1.5:57")
+    assert found["active_twist"]["harmonics"] == [
+        {"per_rev": 2, "amplitude_deg": 1.5, "phase_deg": 57.0}
+    ]
+    design = make_design(
+        mu=0.2, inflow="pitt-peters", pitch_per_rev="3:1:180", twist_per_rev="2:1.5:57"
+    )
     assert found["power_w"]["total"] == pytest.approx(rotor.solve(design).power.total, rel=1e-9)
     design.save(tmp_path / "case.json")
     case = ("solve", "--case", str(tmp_path / "case.json"))
@@ -184,7 +222,10 @@ def test_on_the_command_line(tmp_path: Path, printed: Callable[..., str], answer
     still = answer(*case, "--pitch-per-rev", "2:0:0", "--twist-per-rev", "2:0:0")
     assert not {"pitch_per_rev", "active_twist"} & set(still)
     other = answer(*case, "--pitch-per-rev", "4:0.5:0")
-    assert (other["pitch_per_rev"][0]["per_rev"], other["active_twist"]) == (4, found["active_twist"])
+    assert (other["pitch_per_rev"][0]["per_rev"], other["active_twist"]) == (
+        4,
+        found["active_twist"],
+    )
 
 
 def test_a_search_keeps_the_pitch():
@@ -196,5 +237,7 @@ def test_a_search_keeps_the_pitch():
 
 
 def test_studies_vary_it():
-    study = parse_study('[axes]\npitch_per_rev = ["", "3:1:0", "3:1:90"]\n[fixed]\ntwist_per_rev = "2:1:0"\n')
+    study = parse_study(
+        '[axes]\npitch_per_rev = ["", "3:1:0", "3:1:90"]\n[fixed]\ntwist_per_rev = "2:1:0"\n'
+    )
     assert study.points.count == 3

@@ -19,9 +19,20 @@ from rotor.files.make_design import make_design, uh60a_rotor
 def test_tables_3_1_and_3_2_and_what_follows():
     """Thesis tables 3.1 (tail rotor) and 3.2 (main rotor)."""
     rotor, tail = uh60a_rotor("thesis"), make_design().tail_rotor
-    assert (rotor.radius, rotor.angular_speed, rotor.reference_chord, rotor.blades) == (8.1788, 27.0, 0.5273, 4)
+    assert (rotor.radius, rotor.angular_speed, rotor.reference_chord, rotor.blades) == (
+        8.1788,
+        27.0,
+        0.5273,
+        4,
+    )
     assert_allclose(rotor.blade.mass / rotor.radius, 13.92, rtol=1e-12)
-    assert (tail.radius, tail.angular_speed, tail.chord, tail.blades, tail.arm) == (1.6764, 124.62, 0.2469, 4, 9.926)
+    assert (tail.radius, tail.angular_speed, tail.chord, tail.blades, tail.arm) == (
+        1.6764,
+        124.62,
+        0.2469,
+        4,
+        9.926,
+    )
     assert make_design(preset="thesis").condition.mass == 8322.4
     assert_allclose(rotor.solidity, 0.0821, atol=5e-5)
     design = make_design()
@@ -45,7 +56,11 @@ def test_sections_along_the_flown_blade():
 
 def test_standard_atmosphere_and_a_hot_day():
     """ISO 2533, geopotential altitude: 2000 m 1.00649 kg/m³, 332.53 m/s; 4000 m 0.81913 kg/m³, 324.58 m/s."""
-    for altitude, density, sound in ((0.0, 1.225, 340.294), (2000.0, 1.00649, 332.53), (4000.0, 0.81913, 324.58)):
+    for altitude, density, sound in (
+        (0.0, 1.225, 340.294),
+        (2000.0, 1.00649, 332.53),
+        (4000.0, 0.81913, 324.58),
+    ):
         condition = make_design(altitude_m=altitude).condition
         assert_allclose(condition.density, density, rtol=1e-5)
         assert_allclose(condition.sound_speed, sound, rtol=1e-4)
@@ -53,9 +68,14 @@ def test_standard_atmosphere_and_a_hot_day():
     # and Sutherland's law gives 1.8384·10⁻⁵ Pa s.
     hot = make_design(altitude_m=1500, isa_offset_c=20).condition
     assert_allclose(hot.density, 84_556.0 / (287.05287 * 298.40), rtol=1e-5)
-    assert_allclose((hot.density, hot.sound_speed, hot.viscosity), (0.987, 346.3, 1.8384e-5), rtol=2e-4)
+    assert_allclose(
+        (hot.density, hot.sound_speed, hot.viscosity), (0.987, 346.3, 1.8384e-5), rtol=2e-4
+    )
     assert in_words(hot.unusual) == ("ISA + 20 °C",)
-    assert in_words(make_design(isa_offset_c=-10, climb_m_s=-3).unusual) == ("ISA − 10 °C", "descent 3 m/s")
+    assert in_words(make_design(isa_offset_c=-10, climb_m_s=-3).unusual) == (
+        "ISA − 10 °C",
+        "descent 3 m/s",
+    )
 
 
 STAND = {"shaft_tilt_deg": -12.0, "thrust_n": 60e3, "flapping": "free", "cyclic_1s_deg": -2.0}
@@ -64,11 +84,18 @@ STAND = {"shaft_tilt_deg": -12.0, "thrust_n": 60e3, "flapping": "free", "cyclic_
 @pytest.mark.parametrize(
     "asked",
     [
-        *({"preset": one, "twist": law} for one in PRESETS for law in (None, "segments:-12,-4@0.5", "ideal")),
+        *(
+            {"preset": one, "twist": law}
+            for one in PRESETS
+            for law in (None, "segments:-12,-4@0.5", "ideal")
+        ),
         {"climb_m_s": -3.5},
         {"low_speed": "wake"},
         *({"trim": trim, "stand": STAND} for trim in ("wind-tunnel", "free-rotor")),
-        {"trim": "wind-tunnel", "stand": {"ct_over_sigma": 0.06, "flapping": "hub-moments", "hub_roll_nm": 2e4}},
+        {
+            "trim": "wind-tunnel",
+            "stand": {"ct_over_sigma": 0.06, "flapping": "hub-moments", "hub_roll_nm": 2e4},
+        },
         {"trim": "controls", "stand": {"collective_deg": 7.0, "cyclic_1c_deg": 0.5}},
     ],
     ids=str,

@@ -51,7 +51,9 @@ def test_profile_power_goes_with_the_cube_at_the_same_blade_loading():
         slow = rotor.solve(simple(percent, hover=True, mass_kg=mass)).require()
         assert_allclose(slow.ct, base.ct, rtol=1e-6)
         for part in ("profile", "induced"):
-            assert_allclose(getattr(slow.power, part), getattr(base.power, part) * share**3, rtol=2e-5)
+            assert_allclose(
+                getattr(slow.power, part), getattr(base.power, part) * share**3, rtol=2e-5
+            )
 
 
 def test_ideal_induced_power_does_not_depend_on_rotor_speed():
@@ -75,16 +77,24 @@ def test_torsion_frequency_per_revolution_rises_as_the_rotor_slows():
     own = design.aircraft.rotor.angular_speed
     centrifugal = per_rev(100.0) ** 2 - (rest / own) ** 2
     for percent in (70.0, 110.0):
-        assert_allclose(per_rev(percent) ** 2, (rest / (own * percent / 100.0)) ** 2 + centrifugal, rtol=2e-3)
+        assert_allclose(
+            per_rev(percent) ** 2, (rest / (own * percent / 100.0)) ** 2 + centrifugal, rtol=2e-3
+        )
 
 
 def test_flapping_with_hinge_offset_keeps_its_frequency_and_a_spring_does_not():
     design = rotor.make_design(**SMALL)
     slow = design.at(rotor_speed_percent=80.0)
-    assert_allclose(slow.rotor.flap_frequency_squared, design.rotor.flap_frequency_squared, rtol=1e-12)
-    sprung = replace(design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, flap_spring=1e4)))
+    assert_allclose(
+        slow.rotor.flap_frequency_squared, design.rotor.flap_frequency_squared, rtol=1e-12
+    )
+    sprung = replace(
+        design, rotor=replace(design.rotor, blade=replace(design.rotor.blade, flap_spring=1e4))
+    )
     slower = sprung.at(rotor_speed_percent=80.0)
-    assert_allclose(slower.rotor.flap_spring_ratio * 0.8**2, sprung.rotor.flap_spring_ratio, rtol=1e-12)
+    assert_allclose(
+        slower.rotor.flap_spring_ratio * 0.8**2, sprung.rotor.flap_spring_ratio, rtol=1e-12
+    )
 
 
 def test_advance_ratio_stays_unless_the_airspeed_is_given():
@@ -101,7 +111,9 @@ def test_advance_ratio_stays_unless_the_airspeed_is_given():
 
 def test_a_given_tip_mach_number_excludes_it():
     stand = {"ct_over_sigma": 0.07, "tip_mach": 0.6}
-    with pytest.raises(ValueError, match=r"rotor speed 90 % and tip_mach 0\.6 both .* give one of them"):
+    with pytest.raises(
+        ValueError, match=r"rotor speed 90 % and tip_mach 0\.6 both .* give one of them"
+    ):
         rotor.make_design(stand=stand, rotor_speed_percent=90)
 
 
@@ -113,7 +125,9 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
     for name, row in NUMBERS.items():
         if name == "mu":
             continue
-        value = float(row.examples[0]) if row.examples[0] != row.default else float(row.examples[-1])
+        value = (
+            float(row.examples[0]) if row.examples[0] != row.default else float(row.examples[-1])
+        )
         changed: dict[str, Any] = {name: value}
         wrong: dict[Any, tuple[type[Exception], str]] = {
             row.high + 1.0: (ValueError, f"is outside {row.low:g}…{row.high:g}"),
@@ -128,7 +142,9 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
         again = rotor.make_design(**SMALL).at(**changed)
         assert again == design == rotor.make_design(case=again)
         grid = [f"--{key}={size}" for key, size in SMALL.items()]
-        assert design_from_flags(parser.parse_args([f"--{row.flag}={value}", *grid]), mu=0.2) == design
+        assert (
+            design_from_flags(parser.parse_args([f"--{row.flag}={value}", *grid]), mu=0.2) == design
+        )
         assert design_from_record(design.to_dict()) == design
         assert f"{row.word}={value:g}" in code_of(design)
         assert design_from(code_of(design)) == design
@@ -151,12 +167,18 @@ def test_a_quantity_is_found_everywhere_from_its_row(tmp_path):
 
 def test_drag_area_is_that_of_the_airframe():
     """Parasite power ½ρV³f; without an area of its own it is the rotor file's."""
-    design = rotor.make_design(mu=0.2, twist="linear:-12", drag_area_m2=2.0, off="download", **DREES)
+    design = rotor.make_design(
+        mu=0.2, twist="linear:-12", drag_area_m2=2.0, off="download", **DREES
+    )
     power = rotor.solve(design).require().power
-    assert_allclose(power.parasite, 0.5 * design.condition.density * design.airspeed**3 * 2.0, rtol=1e-8)
+    assert_allclose(
+        power.parasite, 0.5 * design.condition.density * design.airspeed**3 * 2.0, rtol=1e-8
+    )
     table = rotor.sweep(design, drag_area_m2=[2.0, 3.0])
     assert [one.design.fuselage.drag_area for one in table.solutions] == [2.0, 3.0]
-    assert "drag_area_m2" not in design.at(drag_area_m2=design.aircraft.fuselage.drag_area).to_dict()
+    assert (
+        "drag_area_m2" not in design.at(drag_area_m2=design.aircraft.fuselage.drag_area).to_dict()
+    )
 
 
 # Load factor: a heavier aircraft with the same drag; in a climb power lifts the weight alone
@@ -175,7 +197,9 @@ def test_one_is_the_design_without_it():
 def test_it_is_a_heavier_aircraft_with_the_same_drag(mu: float):
     """n = 1.2 at a mass m is n = 1 at 1.2 m."""
     design = rotor.make_design(mu=mu, mass_kg=7000, load_factor=1.2, **DREES)
-    turning, heavy = (rotor.solve(one).require() for one in (design, design.at(mass_kg=8400, load_factor=1)))
+    turning, heavy = (
+        rotor.solve(one).require() for one in (design, design.at(mass_kg=8400, load_factor=1))
+    )
     assert_allclose(vars(turning.power)["induced"], heavy.power.induced, rtol=1e-9)
     assert_allclose(turning.power.total, heavy.power.total, rtol=1e-9)
     assert_allclose(turning.controls.array(), heavy.controls.array(), rtol=1e-7, atol=1e-10)

@@ -28,7 +28,14 @@ def parse(spec: str) -> TwistLaw:
     return parse_twist(spec, builtin=BUILTIN, ideal_tip_pitch=lambda: math.radians(6.4))
 
 
-SPECS = ["linear:-8", "quadratic:6,-14", "segments:-12,-4@0.5", "segments:-4,-12,-20@0.4,0.75", "ideal:6.4", "uh60a"]
+SPECS = [
+    "linear:-8",
+    "quadratic:6,-14",
+    "segments:-12,-4@0.5",
+    "segments:-4,-12,-20@0.4,0.75",
+    "ideal:6.4",
+    "uh60a",
+]
 
 
 @pytest.mark.parametrize("spec", SPECS)

@@ -59,7 +59,9 @@ def test_hinged_blade_flaps_once_per_revolution() -> None:
     offset = 0.05
     stiff = bending_beam(_uniform(1e3, 1e3), 12.0, offset, _flat, FREE)
     square = 1.5 * offset / (1.0 - offset)
-    assert_allclose((bending_modes(stiff, 2).frequency / 12.0) ** 2, [square, 1.0 + square], rtol=1e-3)
+    assert_allclose(
+        (bending_modes(stiff, 2).frequency / 12.0) ** 2, [square, 1.0 + square], rtol=1e-3
+    )
 
 
 @pytest.mark.parametrize("springs", [(0.4, 0.0), (0.0, 0.3), (0.7, 0.5), (math.inf, 0.3)])
@@ -86,9 +88,12 @@ def test_springs_at_offset_hinges(springs: tuple[float, float]) -> None:
 def test_a_stiff_spring_holds_the_root() -> None:
     """Between a hinge and a clamp; with K ≫ EI/L the frequencies of the cantilever."""
     beams = [
-        bending_beam(_uniform(1.0, 900.0), 6.0, 0.0, _flat, springs) for springs in (FREE, (1.0, 0.0), (1e5, 1e6), HELD)
+        bending_beam(_uniform(1.0, 900.0), 6.0, 0.0, _flat, springs)
+        for springs in (FREE, (1.0, 0.0), (1e5, 1e6), HELD)
     ]
-    free, sprung, stiff, held = (frequencies_by_kind(bending_modes(beam, 4))[0][0] for beam in beams)
+    free, sprung, stiff, held = (
+        frequencies_by_kind(bending_modes(beam, 4))[0][0] for beam in beams
+    )
     assert free < sprung < held
     assert_allclose(stiff, held, rtol=1e-4)
 
@@ -120,7 +125,9 @@ def test_uh60a_frequencies() -> None:
     def pitch(r: Array) -> Array:
         return math.radians(10.0) + design.twist(r / radius)
 
-    beam = bending_beam(blade.structure, design.rotor.angular_speed, blade.flap_hinge * radius, pitch, FREE)
+    beam = bending_beam(
+        blade.structure, design.rotor.angular_speed, blade.flap_hinge * radius, pitch, FREE
+    )
     flap, lag = frequencies_by_kind(bending_modes(beam, 5))
     assert_allclose(flap[:2], [1.035, 2.81], rtol=0.02)
     assert_allclose(lag[0], 0.27, atol=0.005)

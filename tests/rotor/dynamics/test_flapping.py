@@ -24,9 +24,13 @@ def test_ode_agrees_with_harmonic_balance(preset: str, mu: float):
 
 
 def test_no_hinge_offset_leaves_no_first_harmonic_moment():
-    design = make_design(preset="thesis", mu=0.25, twist="linear:-10", inflow="pitt-peters", off="elastic-twist")
+    design = make_design(
+        preset="thesis", mu=0.25, twist="linear:-10", inflow="pitt-peters", off="elastic-twist"
+    )
     problem = build_problem(design)
-    moment = problem.disk.r * problem.disk.dr @ newton(problem, first_guess(problem)).linear.elements.fz
+    moment = (
+        problem.disk.r * problem.disk.dr @ newton(problem, first_guess(problem)).linear.elements.fz
+    )
     assert_allclose((moment @ problem.disk.cos, moment @ problem.disk.sin), 0.0, atol=1e-11)
 
 

@@ -26,7 +26,9 @@ def test_modes_of_a_uniform_blade_clamped_and_on_a_control_spring():
     """ω = π(2n − 1)/2 √(GJ/I_θ)/L, shapes sin((2n − 1)πr/2L)."""
     modes = blade_modes(uniform(), 0.0, 3)
     order = 2.0 * np.arange(1, 4) - 1.0
-    assert_allclose(modes.frequency, 0.5 * math.pi * order * math.sqrt(GJ / INERTIA) / LENGTH, rtol=2e-4)
+    assert_allclose(
+        modes.frequency, 0.5 * math.pi * order * math.sqrt(GJ / INERTIA) / LENGTH, rtol=2e-4
+    )
     expected = np.sin(0.5 * math.pi * np.outer(order, modes.r) / LENGTH)
     assert_allclose(modes.shape, expected / expected[:, -1:], atol=1e-3)
     assert_allclose(modes.inertia, 0.5 * INERTIA * LENGTH, rtol=1e-3)
@@ -59,7 +61,10 @@ def test_fan_plot_of_the_uh60a():
     Bowen-Davies, PhD thesis, University of Maryland, digitised by TU Munich. The control stiffness is an assumption
     made with this plot in view, so only the rise with rotation is independent.
     """
-    still, turning = (blade_modes(uh60a_structure(), speed, 1).frequency[0] / (2.0 * math.pi) for speed in (0.0, SPEED))
+    still, turning = (
+        blade_modes(uh60a_structure(), speed, 1).frequency[0] / (2.0 * math.pi)
+        for speed in (0.0, SPEED)
+    )
     assert 0.97 * 20.56 < still < 1.03 * 21.04
     assert 20.98 < turning < 22.36
     assert 0.98 - 0.56 < turning - still < 22.36 - 20.56

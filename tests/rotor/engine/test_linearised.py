@@ -48,7 +48,9 @@ def flight(mu: float = 0.2, *, mass: float | None = None, **models: Any) -> Case
     return Case(mu, mass=mass, models=tuple(models.items()))
 
 
-def stand(trim: str, mu: float = 0.2, *, elastic: bool = True, precone: float | None = None, **given: Any) -> Case:
+def stand(
+    trim: str, mu: float = 0.2, *, elastic: bool = True, precone: float | None = None, **given: Any
+) -> Case:
     models = (("inflow", "drees"), ("elastic_twist", elastic))
     return Case(mu, trim=trim, stand=Stand(**given), precone=precone, models=models)
 
@@ -117,7 +119,12 @@ CASES = {
 def design(case: Case) -> Design:
     """A design on a coarse grid."""
     at = make_design(
-        mu=case.mu, preset=case.preset, climb_m_s=case.climb, trim=case.trim, stand=case.stand, mass_kg=case.mass
+        mu=case.mu,
+        preset=case.preset,
+        climb_m_s=case.climb,
+        trim=case.trim,
+        stand=case.stand,
+        mass_kg=case.mass,
     )
     elements, azimuths = case.grid
     return replace(
@@ -144,7 +151,8 @@ def check(value: Callable[[float], Any], slope: Any, least: float) -> None:
     near, off, coarse = 1e-8 * max(float(np.abs(slope).max()), least), math.inf, None
     for step in STEPS:
         fine = (value(step) - value(-step)) / (2.0 * step)
-        ways = [fine] if coarse is None else [fine, (10.0 * fine - coarse) / 9.0]  # A step is 1/√10 of that before.
+        # A step is 1/√10 of that before.
+        ways = [fine] if coarse is None else [fine, (10.0 * fine - coarse) / 9.0]
         off, coarse = min(off, *(float(np.abs(way - slope).max()) for way in ways)), fine
         if off <= near:
             return
@@ -180,16 +188,23 @@ OPEN = re.compile("thesis|bending|axial flow|thrust$")
 the drag without a force."""
 
 
-@pytest.mark.parametrize("name", [name for name in CASES if name == "tunnel thrust" or not OPEN.search(name)])
+@pytest.mark.parametrize(
+    "name", [name for name in CASES if name == "tunnel thrust" or not OPEN.search(name)]
+)
 def test_the_energy_closes(name: str):
     """P_shaft = Σ(λ_i dF_z + U dD) + D·V + W·V_c: torque, dissipation and trim are computed apart and must meet."""
     solution = trimmed(name).solution.require()
     power, flies = solution.power, solution.design.condition.stand is None
     spent = abs(power.induced) + power.profile + abs(power.parasite) + abs(power.climb)
     assert abs(power.shaft - power.main_rotor) <= 1e-8 * spent
-    assert abs(power.main_rotor - power.induced - power.profile - power.parasite - power.climb) <= 1e-13 * spent
+    assert (
+        abs(power.main_rotor - power.induced - power.profile - power.parasite - power.climb)
+        <= 1e-13 * spent
+    )
     if flies:
-        assert_allclose(power.climb, solution.design.condition.weight * CASES[name].climb, rtol=1e-13)
+        assert_allclose(
+            power.climb, solution.design.condition.weight * CASES[name].climb, rtol=1e-13
+        )
     assert (power.tail > 0.0) == flies
 
 
@@ -213,17 +228,34 @@ def test_transposed_is_the_transpose(name: str):
     matrix, random = jacobian(point)[0], np.random.default_rng(5)
     for v in random.standard_normal((2, len(point.residual))):
         expected = v @ matrix
-        assert_allclose(transposed(point, v)[0], expected, rtol=0, atol=1e-12 * np.abs(expected).max(initial=0.0))
+        assert_allclose(
+            transposed(point, v)[0],
+            expected,
+            rtol=0,
+            atol=1e-12 * np.abs(expected).max(initial=0.0),
+        )
 
 
 def any_measures(point: Point) -> list[MeasureSlopes]:
     """Random weights on all that a measure may depend on; one measure of each kind."""
     random, structure = np.random.default_rng(11), point.system.structure
     shape, found = point.forces.shape[1:], structure.weights
-    fields = {force: random.standard_normal(shape) for force, _ in structure.pairs if force != M or found[M]}
+    fields = {
+        force: random.standard_normal(shape)
+        for force, _ in structure.pairs
+        if force != M or found[M]
+    }
     channels = {channel: random.standard_normal(shape) for _, channel in structure.pairs}
-    parts = [(c, list(own), random.standard_normal(shape)) for c, own in enumerate(structure.shapes) if own]
-    known = [atom for name, atom in (structure.states | structure.derived).items() if "change" not in str(name)]
+    parts = [
+        (c, list(own), random.standard_normal(shape))
+        for c, own in enumerate(structure.shapes)
+        if own
+    ]
+    known = [
+        atom
+        for name, atom in (structure.states | structure.derived).items()
+        if "change" not in str(name)
+    ]
     terms = [
         (int(random.integers(2)), int(random.integers(len(point.q))), *random.choice(known, 2).tolist(),
          float(random.standard_normal())) for _ in range(12)
@@ -241,7 +273,9 @@ def value(point: Point, measure: MeasureSlopes) -> float:
     found = sum(float(np.vdot(own, point.forces[k])) for k, own in measure.forces.items())
     found += sum(float(np.vdot(own, point.channels[k])) for k, own in measure.channels.items())
     found += sum(float(np.vdot(own, part(point, k, names))) for k, names, own in measure.parts)
-    return found + (0.0 if measure.terms is None else float(measure.terms.value(point.z, point.q).sum()))
+    return found + (
+        0.0 if measure.terms is None else float(measure.terms.value(point.z, point.q).sum())
+    )
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -19,7 +19,9 @@ WANTED = (1.5, 0.6, -0.4)
 STATES = tuple(zip(("mean", "cosine", "sine"), (STEADY, COS, SIN), strict=True))
 
 
-def system(wanted: tuple[float, ...] = WANTED, largest: float = math.inf, limit: float = 100.0) -> System:
+def system(
+    wanted: tuple[float, ...] = WANTED, largest: float = math.inf, limit: float = 100.0
+) -> System:
     """Means of c² with 1, cos ψ and sin ψ as wanted, c = a + b cos ψ + d sin ψ; no number beyond c = `largest`."""
     s = Structure(((0, 0),), 1, 1, "square")
     for name in ("wanted", *(("wanted", wave) for wave in range(3))):
@@ -35,7 +37,11 @@ def system(wanted: tuple[float, ...] = WANTED, largest: float = math.inf, limit:
     def section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
         del data
         f = np.where(c > largest, math.nan, c * c)
-        return f, 2.0 * c if slopes else np.zeros((1, 0, c.shape[2])), np.zeros((0, int(flow), c.shape[2]))
+        return (
+            f,
+            2.0 * c if slopes else np.zeros((1, 0, c.shape[2])),
+            np.zeros((0, int(flow), c.shape[2])),
+        )
 
     grid, thin = (Grid(wave_grid(s.waves, m), np.zeros((1, 1)), {}, None) for m in (16, 8))
     return System(
@@ -117,7 +123,9 @@ def test_what_is_not_a_number_ends_or_is_stepped_back_from():
         assert found.passes < 5
     start = (0.25, 0.2, -0.1)  # The first step goes beyond.
     x = at(above, *start)
-    assert not np.isfinite(evaluate(above, above.grid, x + np.array(5 * [0.0] + [4.0, 0.0, 0.0])).residual).all()
+    assert not np.isfinite(
+        evaluate(above, above.grid, x + np.array(5 * [0.0] + [4.0, 0.0, 0.0])).residual
+    ).all()
     found = solve(above, x, None, limits(4.0))
     assert found.point.size <= 1.0
     assert_allclose(np.abs(found.point.x[-3:]), np.abs(expected((1.0, 0.4, -0.2))), rtol=1e-11)

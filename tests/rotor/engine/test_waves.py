@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from rotor.engine.waves import COS, SIN, STEADY, harmonic_of, products, rate_of, times_wave, wave_grid, wave_number
+from rotor.engine.waves import (
+    COS,
+    SIN,
+    STEADY,
+    harmonic_of,
+    products,
+    rate_of,
+    times_wave,
+    wave_grid,
+    wave_number,
+)
 
 GRID = wave_grid(25, 60)
 WAVES = range(13)

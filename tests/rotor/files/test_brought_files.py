@@ -11,7 +11,13 @@ from test_rotor_file import GOOD, POLARS, polar_file, read
 from explorer.widgets.design_files import UploadedFiles
 from rotor import Aircraft, make_design, solve
 from rotor.airfoil.c81 import C81Block, C81Deck, format_c81, parse_c81
-from rotor.airfoil.contour import Contour, load_contour, parse_contour, resample, thickness_and_camber
+from rotor.airfoil.contour import (
+    Contour,
+    load_contour,
+    parse_contour,
+    resample,
+    thickness_and_camber,
+)
 from rotor.airfoil.polars import Polar, parse_polars
 from rotor.airfoil.sections import load_section
 from rotor.design.aircraft import SEA_LEVEL_DENSITY
@@ -49,8 +55,12 @@ OUTLINES = {
     "about the pitch axis": rows(POINTS - [0.3, 0.0]),
     "nose aft, in inches": rows((POINTS - [1.0, 0.0]) * [-12.0, 12.0]),
     "points in space": rows(np.insert(POINTS, 2, 0.4, axis=1), "{:.6f} {:.6f} {:.6f}"),
-    "points in space, y along the span": rows(np.insert(POINTS, 1, 0.0, axis=1), "{:.6f} {:.6f} {:.6f}"),
-    "minus signs of print, Fortran": rows(POINTS, "{:.6E} {:.6E}").replace("-", "−").replace("E", "D"),
+    "points in space, y along the span": rows(
+        np.insert(POINTS, 1, 0.0, axis=1), "{:.6f} {:.6f} {:.6f}"
+    ),
+    "minus signs of print, Fortran": rows(POINTS, "{:.6E} {:.6E}")
+    .replace("-", "−")
+    .replace("E", "D"),
 }
 
 
@@ -58,22 +68,42 @@ OUTLINES = {
 def test_an_outline_in_any_order_is_the_same(kind: str):
     """NACA 2412: 12 % thick, 2 % camber; upper trailing edge first, as all that draws and measures takes it."""
     contour = parse_contour(OUTLINES[kind], "a.dat")
-    assert_allclose(contour.points, POINTS, atol=3e-4)  # Divided by the width in x, which is 1.0002 chords.
-    assert_allclose(thickness_and_camber(contour)[0::2], thickness_and_camber(Contour("", POINTS))[0::2], atol=1e-4)
+    # Divided by the width in x, which is 1.0002 chords.
+    assert_allclose(contour.points, POINTS, atol=3e-4)
+    assert_allclose(
+        thickness_and_camber(contour)[0::2],
+        thickness_and_camber(Contour("", POINTS))[0::2],
+        atol=1e-4,
+    )
 
 
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        (rows(POINTS[np.argsort(POINTS[:, 0])]), "does not go around a section exactly once: list the points"),
-        (rows(POINTS).replace(rows(POINTS[9:10]), "0.5 0.4\n"), "line 10: the outline jumps to this point and back"),
-        (rows(POINTS).replace(rows(POINTS[9:10]), "9.5 0.0\n"), "line 10: the outline jumps to this point: correct it"),
-        (rows(POINTS).replace(rows(POINTS[9:10]), "thick here\n"), "line 10: text interrupts the points of one side"),
+        (
+            rows(POINTS[np.argsort(POINTS[:, 0])]),
+            "does not go around a section exactly once: list the points",
+        ),
+        (
+            rows(POINTS).replace(rows(POINTS[9:10]), "0.5 0.4\n"),
+            "line 10: the outline jumps to this point and back",
+        ),
+        (
+            rows(POINTS).replace(rows(POINTS[9:10]), "9.5 0.0\n"),
+            "line 10: the outline jumps to this point: correct it",
+        ),
+        (
+            rows(POINTS).replace(rows(POINTS[9:10]), "thick here\n"),
+            "line 10: text interrupts the points of one side",
+        ),
         (
             rows(resample(load_contour("naca2412"), 81).points[:41]),
             "does not go around a section exactly once: list the points",
         ),
-        (rows(np.insert(POINTS, 2, POINTS[:, 0] ** 2, axis=1), "{} {} {}"), "three numbers a line, x y z, of no flat"),
+        (
+            rows(np.insert(POINTS, 2, POINTS[:, 0] ** 2, axis=1), "{} {} {}"),
+            "three numbers a line, x y z, of no flat",
+        ),
         (rows(np.tile(POINTS[3], (40, 1))), "x is"),
     ],
 )
@@ -126,13 +156,18 @@ def test_a_polar_of_any_program_is_the_same(kind: str):
 
 
 def test_several_reynolds_numbers_are_several_polars():
-    body = "".join(table(f"0.3,{reynolds},{{}},{{:.4f}},{{:.5f}},{{:.4f}}") for reynolds in (4e5, 1e5))
+    body = "".join(
+        table(f"0.3,{reynolds},{{}},{{:.4f}},{{:.5f}},{{:.4f}}") for reynolds in (4e5, 1e5)
+    )
     polars = parse_polars(f"mach,reynolds,alpha_deg,cl,cd,cm\n{body}", "a.csv").polars
     assert [(polar.mach, polar.reynolds) for polar in polars] == [(0.3, 1e5), (0.3, 4e5)]
     tables = f"alpha cl cd\nRe 1e5\n{table('{} {} {}', *COLUMNS[:3])}"
     found = parse_polars(f"Re = 1e5\n{tables}\nRe = 4e5\n{tables}", "a.txt")
     assert [(polar.mach, polar.reynolds) for polar in found.polars] == [(0.0, 1e5), (0.0, 4e5)]
-    assert found.assumed == ("names no Mach number: it is taken as incompressible", "has no cm: it is taken as 0")
+    assert found.assumed == (
+        "names no Mach number: it is taken as incompressible",
+        "has no cm: it is taken as 0",
+    )
 
 
 @pytest.mark.parametrize(
@@ -147,9 +182,8 @@ def test_a_reynolds_number_is_read_as_it_is_written(words: str):
 
 
 def test_angles_in_radians_are_said():
-    text = (
-        f"Mach 0.3\nalpha (rad) cl cd cm\n{table('{:.9f} {:.4f} {:.5f} {:.4f}', np.deg2rad(COLUMNS[0]), *COLUMNS[1:])}"
-    )
+    rows = table("{:.9f} {:.4f} {:.5f} {:.4f}", np.deg2rad(COLUMNS[0]), *COLUMNS[1:])
+    text = f"Mach 0.3\nalpha (rad) cl cd cm\n{rows}"
     found = parse_polars(text, "a.txt")
     assert_allclose(found.polars[0].alpha_deg, COLUMNS[0], atol=1e-6)
     assert found.assumed == ("has its angles in radians",)
@@ -192,15 +226,23 @@ def test_a_polar_that_cannot_be_trusted_is_refused(text: str, says: str):
 def test_text_of_windows_is_read(encoding: str, tmp_path: Path):
     path = tmp_path / "a.txt"
     path.write_bytes(XFOIL.replace("NACA 0012", "Flügel, 20 °C").encode(encoding))
-    assert parse_polars(read_text(path, "section file", "save it as text"), "a.txt").polars[0].reynolds == 3.24e6
+    assert (
+        parse_polars(read_text(path, "section file", "save it as text"), "a.txt").polars[0].reynolds
+        == 3.24e6
+    )
     path.write_bytes(bytes(256))
-    with pytest.raises(ValueError, match=r"section file '.*a\.txt' cannot be read \(not text\): save it as text"):
+    with pytest.raises(
+        ValueError, match=r"section file '.*a\.txt' cannot be read \(not text\): save it as text"
+    ):
         read_text(path, "section file", "save it as text")
 
 
 def mine(keys: str, name: str, text: str) -> Aircraft:
     """The same on the page and in Python."""
-    toml = GOOD.replace('"naca0012"', '"mine"', 1) + f'\n[sections.mine]\n{keys}\noutline = "naca0012"\n'
+    toml = (
+        GOOD.replace('"naca0012"', '"mine"', 1)
+        + f'\n[sections.mine]\n{keys}\noutline = "naca0012"\n'
+    )
     craft = read(toml, **{name: text})
     shelf = UploadedFiles()
     shelf.add("my.toml", toml.encode())
@@ -216,15 +258,23 @@ def block(mach: list[float], values: np.ndarray) -> C81Block:
 
 
 def deck(mach: list[float], moment: bool = True) -> C81Deck:
-    lift, drag = np.interp(ANGLES, [-180, -10, 10, 180], [0, -1.1, 1.1, 0]), 0.01 + np.sin(np.deg2rad(ANGLES)) ** 2
-    return C81Deck("OWN", block(mach, lift), block(mach, drag), block(mach, -0.1 * lift) if moment else None)
+    lift, drag = (
+        np.interp(ANGLES, [-180, -10, 10, 180], [0, -1.1, 1.1, 0]),
+        0.01 + np.sin(np.deg2rad(ANGLES)) ** 2,
+    )
+    return C81Deck(
+        "OWN", block(mach, lift), block(mach, drag), block(mach, -0.1 * lift) if moment else None
+    )
 
 
 def spaced(text: str, width: int) -> str:
     """A deck with all fields of another width, or by single blanks."""
     title, *cards = text.splitlines()
     fields = [[card[k : k + 7].strip() for k in range(0, len(card), 7)] for card in cards]
-    lines = [" ".join(row) if not width else "".join(f"{each:>{width}}" for each in row) for row in fields]
+    lines = [
+        " ".join(row) if not width else "".join(f"{each:>{width}}" for each in row)
+        for row in fields
+    ]
     return "\n".join([title, *lines])
 
 
@@ -235,10 +285,14 @@ DECKS = {
     "by blanks": spaced(FULL, 0),
     "words below": FULL + "\nMade by hand in 1998\n",
     "counts apart": FULL.replace("                            3 9 3 9 3 9", "  3 9 3 9 3 9"),
-    "an angle twice": FULL.replace(" 3 9 3 9 3 9", " 310 3 9 3 9").replace("   0.00", f"   0.00{'  0.0000' * 0}", 1),
+    "an angle twice": FULL.replace(" 3 9 3 9 3 9", " 310 3 9 3 9").replace(
+        "   0.00", f"   0.00{'  0.0000' * 0}", 1
+    ),
 }
 DECKS["an angle twice"] = "\n".join(
-    line for k, line in enumerate(DECKS["an angle twice"].splitlines()) for _ in range(2 if k == 6 else 1)
+    line
+    for k, line in enumerate(DECKS["an angle twice"].splitlines())
+    for _ in range(2 if k == 6 else 1)
 )
 
 
@@ -279,7 +333,9 @@ def test_mach_numbers_of_a_deck_are_met_or_the_difference_is_said(machs: list[fl
     lift, drag = (C81Block(np.array(machs), ANGLES, values) for values in (given.cl, drag))
     own = C81Deck("OWN", lift, drag, None)
     craft = mine('deck = "a.c81"', "a.c81", format_c81(own))
-    found = craft.rotor.blade.installed("mine").table(np.deg2rad([-10.0, 0.0, 10.0])[:, None], np.array(machs))
+    found = craft.rotor.blade.installed("mine").table(
+        np.deg2rad([-10.0, 0.0, 10.0])[:, None], np.array(machs)
+    )
     assert len(craft.remarks) == (2 if remark else 1)
     assert remark in craft.remarks[-1]
     if not remark:
@@ -288,10 +344,15 @@ def test_mach_numbers_of_a_deck_are_met_or_the_difference_is_said(machs: list[fl
 
 def test_an_outline_gives_the_thickness_of_the_wave_drag_or_asks_for_it():
     thin = POINTS * (1.0, 0.1)
-    toml = GOOD.replace('"naca0012"', '"mine"', 1) + '\n[sections.mine]\npolars = "a.txt"\noutline = "b.dat"\n'
+    toml = (
+        GOOD.replace('"naca0012"', '"mine"', 1)
+        + '\n[sections.mine]\npolars = "a.txt"\noutline = "b.dat"\n'
+    )
     files = {"a.txt": XFOIL, "b.dat": rows(POINTS)}
     assert "outline of 41 points, 12.0 % thick, 2.0 % camber" in read(toml, **files).remarks[0]
-    with pytest.raises(ValueError, match=r"b\.dat: the outline is 1\.2 % thick, outside 2…40 %: .*`thickness`"):
+    with pytest.raises(
+        ValueError, match=r"b\.dat: the outline is 1\.2 % thick, outside 2…40 %: .*`thickness`"
+    ):
         read(toml, **{**files, "b.dat": rows(thin)})
     assert read(toml + "thickness = 0.05\n", **{**files, "b.dat": rows(thin)}).remarks
     windows = toml.replace('"b.dat"', "'data\\b.dat'")
@@ -314,7 +375,8 @@ def test_a_round_shank_has_drag_alone():
     assert not shank(np.linspace(-3.0, 3.0, 50), 0.3).cl.any()
     assert_allclose(shank(np.linspace(-3.0, 3.0, 50), 0.3).cd, 1.0)
     low, high = (solve(make_design(rotor=craft, hover=True)) for craft in (thin, thick))
-    r = np.linspace(0.2, 0.2 + high.disk.dr[high.disk.r < 0.3].sum(), 2001)  # Elements have one section each.
+    # Elements have one section each.
+    r = np.linspace(0.2, 0.2 + high.disk.dr[high.disk.r < 0.3].sum(), 2001)
     along = np.trapezoid(blade.chord(r) * r**3, r) * thick.rotor.radius
     wanted = 0.5 * SEA_LEVEL_DENSITY * thick.rotor.blades * 0.6 * thick.rotor.tip_speed**3 * along
     assert_allclose(high.power.profile - low.power.profile, wanted, rtol=0.02)

@@ -32,7 +32,9 @@ def baseline() -> Solution:
 
 def test_more_power_than_the_engines_give_is_a_caveat():
     """The R22's placard speed, 102 kt, takes less than its 124 hp; 135 kt takes more."""
-    slow, fast = (solve(make_design(rotor="r22", speed_kt=speed)).require() for speed in (102.0, 135.0))
+    slow, fast = (
+        solve(make_design(rotor="r22", speed_kt=speed)).require() for speed in (102.0, 135.0)
+    )
     assert slow.power.total < 124.0 * 745.7 < fast.power.total
     assert "installed-power" not in {one.name for one in slow.caveats}
     (caveat,) = [one for one in fast.caveats if one.name == "installed-power"]
@@ -44,12 +46,20 @@ def test_more_power_than_the_engines_give_is_a_caveat():
 
 def test_stops_of_the_uh60a_follow_from_its_mixer():
     """Sticks from stop to stop through the gains of GenHel: linkage, mixer, swashplate; pitch at the root."""
-    travel = np.array([10.0, 10.0, 10.0, 5.38]) * [0.2062, 0.2172, 0.2025, 0.3780]  # Lateral, fore and aft, up, pedals.
+    # Lateral, fore and aft, up, pedals.
+    travel = np.array([10.0, 10.0, 10.0, 5.38]) * [
+        0.2062,
+        0.2172,
+        0.2025,
+        0.3780,
+    ]
     mixer = np.array([[0.68, 0, 0.993, 0], [0, 1.202, 0.905, -0.4288], [0, -1.202, 1.299, 0.4288]])
     plate = np.array([[11.3413, -5.6706, -5.6706], [0, -5.6706, 5.6706], [0, 3.5034, 3.5034]])
 
     def pitch(**places: float) -> list[float]:
-        sticks = [places.get(name, 0.5) for name in ("lateral", "longitudinal", "collective", "pedals")]
+        sticks = [
+            places.get(name, 0.5) for name in ("lateral", "longitudinal", "collective", "pedals")
+        ]
         a1, b1, root = plate @ (mixer @ (sticks * travel)) + [-7.9738, 9.7280, 10.1111]
         return [-a1, -b1, root - 9.65]
 
@@ -65,7 +75,9 @@ def test_stops_of_the_uh60a_follow_from_its_mixer():
         for name, (low, high) in (("lateral", stops.lateral), ("longitudinal", stops.longitudinal))
     )
     turned = psi - math.radians(9.7)
-    assert_allclose(c * np.cos(psi) + s * np.sin(psi), plate_c * np.cos(turned) + plate_s * np.sin(turned))
+    assert_allclose(
+        c * np.cos(psi) + s * np.sin(psi), plate_c * np.cos(turned) + plate_s * np.sin(turned)
+    )
 
 
 def test_pitch_beyond_the_stops_is_a_caveat():
@@ -95,7 +107,8 @@ def test_flap_frequency_of_point_masses_on_a_hinge_with_a_spring():
 
     def swing(_t: float, y: np.ndarray) -> list[float]:
         arm, height = hinge + out * math.cos(y[0]), out * math.sin(y[0])
-        back = point * speed**2 * float(arm @ height) + spring * y[0]  # Centrifugal force times height, and the spring.
+        # Centrifugal force times height, and the spring.
+        back = point * speed**2 * float(arm @ height) + spring * y[0]
         return [y[1], -back / (point * float(out @ out))]
 
     def crossing(_t: float, y: np.ndarray) -> float:
@@ -106,7 +119,9 @@ def test_flap_frequency_of_point_masses_on_a_hinge_with_a_spring():
     marched = 2.0 * math.pi / (period * speed)
     e = hinge / radius
     inertia = mass * (radius - hinge) ** 2 / 3.0
-    assert_allclose(marched**2, 1.0 + 1.5 * e / (1.0 - e) + spring / (inertia * speed**2), rtol=1e-4)
+    assert_allclose(
+        marched**2, 1.0 + 1.5 * e / (1.0 - e) + spring / (inertia * speed**2), rtol=1e-4
+    )
     assert_allclose(math.sqrt(rotor.flap_frequency_squared), marched, rtol=1e-4)
 
 
@@ -117,15 +132,22 @@ def test_published_frequencies_and_lock_numbers():
     assert_allclose(lock_number(bo105, 1.225, 6.113), 5.087, rtol=0.005)
     hertz = math.sqrt(gazelle.flap_frequency_squared) * gazelle.angular_speed / (2.0 * math.pi)
     assert_allclose(hertz, 6.4, rtol=0.03)
-    assert_allclose(math.sqrt(shipped_aircraft("hart2").rotor.flap_frequency_squared), 1.12, atol=0.001)
+    assert_allclose(
+        math.sqrt(shipped_aircraft("hart2").rotor.flap_frequency_squared), 1.12, atol=0.001
+    )
 
 
 def test_geometry():
     """Solidity 0.06366 (TM-88370) and 0.077 (aspect ratio 16.5); tip speeds of rotor speed times radius."""
     gazelle, hart2, bo105 = (shipped_aircraft(name).rotor for name in ("gazelle", "hart2", "bo105"))
-    assert_allclose([gazelle.solidity, hart2.solidity], [0.06366, 4.0 / (math.pi * 16.5)], rtol=2e-3)
-    assert_allclose([gazelle.tip_speed, hart2.tip_speed, bo105.tip_speed], [212.8, 218.2, 218.0], atol=0.1)
-    assert_allclose(hart2.radius / bo105.radius, 0.121 / 0.27, rtol=0.1)  # A model to scale, its chord 10 % larger.
+    assert_allclose(
+        [gazelle.solidity, hart2.solidity], [0.06366, 4.0 / (math.pi * 16.5)], rtol=2e-3
+    )
+    assert_allclose(
+        [gazelle.tip_speed, hart2.tip_speed, bo105.tip_speed], [212.8, 218.2, 218.0], atol=0.1
+    )
+    # A model to scale, its chord 10 % larger.
+    assert_allclose(hart2.radius / bo105.radius, 0.121 / 0.27, rtol=0.1)
 
 
 def test_first_torsion_frequency_of_hart2():
@@ -136,7 +158,9 @@ def test_first_torsion_frequency_of_hart2():
     length, stiffness = rotor.radius - structure.clamp, structure.torsional_stiffness[0]
     held = structure.control_stiffness * length / stiffness
     beta = float(brentq(lambda b: b * math.tan(b) - held, 0.1, 1.57))
-    square = (beta / length) ** 2 * stiffness / structure.torsional_inertia[0] + rotor.angular_speed**2
+    square = (beta / length) ** 2 * stiffness / structure.torsional_inertia[
+        0
+    ] + rotor.angular_speed**2
     exact = math.sqrt(square) / rotor.angular_speed
     assert_allclose(exact, 3.85, atol=0.01)
     found = blade_modes(structure, rotor.angular_speed, 1).frequency[0] / rotor.angular_speed
@@ -147,12 +171,18 @@ def test_hub_moments_are_those_given(baseline: Solution):
     """They are Σ r dF_z, and also the spring's moments and the shear at the hinge, which know nothing of r dF_z."""
     assert_allclose([baseline.hub_moment.roll, baseline.hub_moment.pitch], [20.0, -20.0], atol=1e-3)
     assert_allclose(baseline.ct * baseline.design.thrust_unit, 3300.0, rtol=1e-6)
-    problem, elements, c = Analysis(baseline).linear.problem, Analysis(baseline).linear.elements, baseline.controls
+    problem, elements, c = (
+        Analysis(baseline).linear.problem,
+        Analysis(baseline).linear.elements,
+        baseline.controls,
+    )
     rotor, disk = baseline.design.rotor, problem.disk
     lift = disk.dr @ elements.fz * baseline.design.thrust_unit / len(disk.psi)
     offset = rotor.blade.flap_hinge * rotor.radius
     half = 0.5 * rotor.blades
-    stiffness = half * (rotor.blade.flap_spring + offset * rotor.blade.flap_static_moment * rotor.angular_speed**2)
+    stiffness = half * (
+        rotor.blade.flap_spring + offset * rotor.blade.flap_static_moment * rotor.angular_speed**2
+    )
     assert_allclose(offset * (lift @ np.sin(disk.psi)) + stiffness * c.flap_1s, 20.0, rtol=1e-4)
     assert_allclose(-offset * (lift @ np.cos(disk.psi)) - stiffness * c.flap_1c, -20.0, rtol=1e-4)
     assert_allclose(hub_moment(problem, elements).roll, 20.0, atol=1e-3)
@@ -205,5 +235,9 @@ def test_masses_agree_with_their_moments():
     assert_allclose(hart2.blade.mass, hart2.blade.structure.mass_per_length[0] * spanned, rtol=1e-3)
     # Lock number of the model beside that of the full-scale blade, 5.09 (Padfield): it was scaled to it.
     offset = hart2.blade.flap_hinge * hart2.radius
-    inertia = hart2.blade.flap_inertia + 2.0 * offset * hart2.blade.flap_static_moment + offset**2 * hart2.blade.mass
+    inertia = (
+        hart2.blade.flap_inertia
+        + 2.0 * offset * hart2.blade.flap_static_moment
+        + offset**2 * hart2.blade.mass
+    )
     assert_allclose(1.225 * 6.113 * 0.121 * hart2.radius**4 / inertia, 5.087, rtol=0.15)

@@ -25,7 +25,10 @@ POLAR = POLARS[2]
 
 
 def with_section(line: str, **files: str) -> Aircraft:
-    text = GOOD.replace('"naca0012"', '"mine"', 1) + f'\n[sections.mine]\n{line}\noutline = "naca0012"\n'
+    text = (
+        GOOD.replace('"naca0012"', '"mine"', 1)
+        + f'\n[sections.mine]\n{line}\noutline = "naca0012"\n'
+    )
     return read_aircraft("my.toml", {"my.toml": text, **files})
 
 
@@ -39,7 +42,9 @@ def with_deck(text: str) -> Aircraft:
 
 def changed(**values: object) -> str:
     """The polar with other values, as XFOIL writes it."""
-    fields = {name: getattr(POLAR, name) for name in ("mach", "reynolds", "alpha_deg", "cl", "cd", "cm")}
+    fields = {
+        name: getattr(POLAR, name) for name in ("mach", "reynolds", "alpha_deg", "cl", "cd", "cm")
+    }
     return polar_file(Polar(**{**fields, **values}))
 
 
@@ -47,10 +52,16 @@ def test_a_polar_at_mach_0_flies_as_one_at_low_mach():
     """XFOIL writes Mach 0.000 unless it is told otherwise. Prandtl–Glauert lift at Mach 0.3 is 4.8 % above it."""
     zero, low = (with_polar(changed(mach=mach)) for mach in (0.0, 0.3))
     assert any("incompressible" in remark for remark in zero.remarks)
-    powers = [solve(make_design(rotor=craft, mu=mu)).power.total for craft in (zero, low) for mu in (0.0, 0.2)]
+    powers = [
+        solve(make_design(rotor=craft, mu=mu)).power.total
+        for craft in (zero, low)
+        for mu in (0.0, 0.2)
+    ]
     assert_allclose(powers[:2], powers[2:], rtol=0.03)
     table = zero.rotor.blade.installed("mine").table
-    assert_allclose(table.lift_slope(0.3) / table.lift_slope(0.0), 1.0 / np.sqrt(1.0 - 0.3**2), rtol=0.01)
+    assert_allclose(
+        table.lift_slope(0.3) / table.lift_slope(0.0), 1.0 / np.sqrt(1.0 - 0.3**2), rtol=0.01
+    )
 
 
 @pytest.mark.parametrize("mach", [1e-6, 0.001, 0.05, 0.06, 0.1])
@@ -60,7 +71,9 @@ def test_friction_stays_positive_at_any_low_mach(mach: float):
 
 
 @pytest.mark.parametrize(
-    "lift", [np.zeros_like(POLAR.cl), np.full_like(POLAR.cl, 0.5), -POLAR.cl, POLAR.cl + 3.0], ids=range(4)
+    "lift",
+    [np.zeros_like(POLAR.cl), np.full_like(POLAR.cl, 0.5), -POLAR.cl, POLAR.cl + 3.0],
+    ids=range(4),
 )
 def test_lift_that_does_not_rise_through_zero_is_refused(lift: np.ndarray):
     with pytest.raises(ValueError, match=r"lift|cl stays") as refusal:
@@ -109,7 +122,11 @@ def test_one_wrong_digit_is_flown_or_refused(suffix: str):
 
 @pytest.mark.parametrize(
     ("heading", "says"),
-    [("Mach = 0.1.2", "correct the number"), ("Mach =   1.300", "outside 0…1"), ("Mach = .", "correct the number")],
+    [
+        ("Mach = 0.1.2", "correct the number"),
+        ("Mach =   1.300", "outside 0…1"),
+        ("Mach = .", "correct the number"),
+    ],
 )
 def test_a_heading_with_a_wrong_digit_is_refused(heading: str, says: str):
     text = re.sub(r"Mach =\s+[0-9.]+", heading, polar_file(POLAR))
@@ -122,9 +139,13 @@ def test_only_sections_in_use_are_built(monkeypatch: pytest.MonkeyPatch):
     built = list[str]()
     read = rotor_file.read_section
     monkeypatch.setattr(
-        rotor_file, "read_section", lambda table, name, *rest: built.append(name) or read(table, name, *rest)
+        rotor_file,
+        "read_section",
+        lambda table, name, *rest: built.append(name) or read(table, name, *rest),
     )
-    text = GOOD.replace('"naca0012"', '"s0"', 1) + "".join(f'[sections.s{k}]\npolars = "a.txt"\n' for k in range(2000))
+    text = GOOD.replace('"naca0012"', '"s0"', 1) + "".join(
+        f'[sections.s{k}]\npolars = "a.txt"\n' for k in range(2000)
+    )
     craft = read_aircraft("my.toml", {"my.toml": text, "a.txt": polar_file(POLAR)})
     assert built == ["s0"]
     assert "Section s1 and 1998 more is left out: no span of the blade uses it." in craft.remarks
@@ -134,21 +155,27 @@ def test_only_sections_in_use_are_built(monkeypatch: pytest.MonkeyPatch):
 def test_the_number_of_sections_and_files_is_bounded():
     own = "".join(f'[sections.s{k}]\npolars = "a.txt"\n' for k in range(13))
     spans = ", ".join(
-        f'{{ start_r = {0.2 + 0.06 * k:.2f}, end_r = {0.26 + 0.06 * k:.2f}, section = "s{k}" }}' for k in range(13)
+        f'{{ start_r = {0.2 + 0.06 * k:.2f}, end_r = {0.26 + 0.06 * k:.2f}, section = "s{k}" }}'
+        for k in range(13)
     )
     text = GOOD.replace('section = "naca0012"', f"spans = [{spans}]", 1) + own
     with pytest.raises(ValueError, match="uses 13 sections of its own: 12 are allowed"):
         read_aircraft("my.toml", {"my.toml": text, "a.txt": polar_file(POLAR)})
     files = ", ".join(f'"{k}.txt"' for k in range(41))
     with pytest.raises(ValueError, match="name 41 files: 40 are allowed"):
-        read_tables("my.toml", GOOD.replace('"naca0012"', '"s"', 1) + f"[sections.s]\npolars = [{files}]\n")
+        read_tables(
+            "my.toml", GOOD.replace('"naca0012"', '"s"', 1) + f"[sections.s]\npolars = [{files}]\n"
+        )
 
 
 LONG = 15_000
 HEAD = "\n alpha cl cd\n ---- ----\n 1 2 3"
 WORK = {
     "dotted names": ("a.toml", "\n".join(".".join(["a"] * 8000) + " = 1" for _ in range(11))),
-    "a header that never ends": ("a.toml", f'x = """\n[{" " * LONG}x\n"""\n' + GOOD.replace("= 5.0", "= 5000.0", 1)),
+    "a header that never ends": (
+        "a.toml",
+        f'x = """\n[{" " * LONG}x\n"""\n' + GOOD.replace("= 5.0", "= 5000.0", 1),
+    ),
     "dashes": ("a.txt", "\n" + "-" * 1_900_000 + "x"),
     "blanks in a number": ("a.txt", f"Mach = 0.1 Re = 1e{' ' * 1_900_000}x{HEAD}"),
     "Mach numbers": (
@@ -186,11 +213,16 @@ def longest_wait(name: str, text: str) -> tuple[float, float]:
             now = time.perf_counter()
             longest, last = max(longest, now - last), now
 
-    shelf, key = UploadedFiles(), {".txt": "polars", ".csv": "polars", ".dat": "outline"}.get(name[-4:])
+    shelf, key = (
+        UploadedFiles(),
+        {".txt": "polars", ".csv": "polars", ".dat": "outline"}.get(name[-4:]),
+    )
     if key:
         names = f'{key} = "{name}"' if key == "polars" else f'polars = "p"\noutline = "{name}"'
         shelf.add("p", polar_file(POLAR).encode())
-        shelf.add("my.toml", f"{GOOD.replace('naca0012', 'mine')}\n[sections.mine]\n{names}\n".encode())
+        shelf.add(
+            "my.toml", f"{GOOD.replace('naca0012', 'mine')}\n[sections.mine]\n{names}\n".encode()
+        )
     sys.setswitchinterval(1e-3)  # As the server does.
     watcher, begin = threading.Thread(target=watch), time.process_time()
     watcher.start()
@@ -217,9 +249,14 @@ def test_names_stay_inside_the_folder(name: str, tmp_path: Path):
     (folder / "link.c81").symlink_to(tmp_path / "mine.c81")
     named = str(tmp_path / "mine.c81") if name == "ABSOLUTE" else name
     (folder / "my.toml").write_text(OUTSIDE.replace("NAME", named), encoding="utf-8")
-    with pytest.raises(ValueError, match=r"outside its folder: copy it there, or give --allow-outside"):
+    with pytest.raises(
+        ValueError, match=r"outside its folder: copy it there, or give --allow-outside"
+    ):
         load_rotor(folder / "my.toml")
-    assert load_rotor(folder / "my.toml", allow_outside=True).rotor.blade.own_sections[0].name == "mine"
+    assert (
+        load_rotor(folder / "my.toml", allow_outside=True).rotor.blade.own_sections[0].name
+        == "mine"
+    )
 
 
 def test_no_line_of_a_foreign_file_is_quoted(tmp_path: Path, refused: Callable[..., str]):

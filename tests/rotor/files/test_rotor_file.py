@@ -76,10 +76,16 @@ def test_a_rotor_alone_needs_neither_mass_nor_spring():
     rigid = bare.replace("blades = 3", 'blades = 3\nhub = "hingeless"\nprecone_deg = 2.0')
     powers = list[float]()
     for craft in map(read, (text, bare, rigid)):
-        powers.append(solve(make_design(rotor=craft, hover=True, stand={"ct_over_sigma": 0.08})).require().power.shaft)
+        powers.append(
+            solve(make_design(rotor=craft, hover=True, stand={"ct_over_sigma": 0.08}))
+            .require()
+            .power.shaft
+        )
     assert_allclose(powers, powers[0], rtol=1e-9)
     assumed, held = read(bare), read(rigid)
-    assert_allclose(1.225 * 5.73 * 0.25 * 5.0**4 / assumed.rotor.blade.flap_inertia, 8.0, rtol=1e-12)
+    assert_allclose(
+        1.225 * 5.73 * 0.25 * 5.0**4 / assumed.rotor.blade.flap_inertia, 8.0, rtol=1e-12
+    )
     assert "no blade_mass_kg: the blades flap with Lock number 8" in assumed.remarks[0]
     assert not held.remarks
     flown = solve(make_design(rotor=held, mu=0.15, stand={"ct_over_sigma": 0.08})).require()
@@ -89,7 +95,9 @@ def test_a_rotor_alone_needs_neither_mass_nor_spring():
     assert "rigid-blades" in {caveat.name for caveat in flown.caveats}
     bends = 'structure = "uh60a"\n[airframe]'
     with pytest.raises(ValueError, match="a hingeless blade with bending stiffness also needs it"):
-        read(GOOD.replace("blades = 3", 'blades = 3\nhub = "hingeless"').replace("[airframe]", bends))
+        read(
+            GOOD.replace("blades = 3", 'blades = 3\nhub = "hingeless"').replace("[airframe]", bends)
+        )
 
 
 def test_thrust_at_a_collective_is_not_trusted_on_short_blades():
@@ -105,7 +113,13 @@ def test_thrust_at_a_collective_is_not_trusted_on_short_blades():
 def test_a_minimal_file_is_enough():
     craft = read(GOOD)
     rotor, blade = craft.rotor, craft.rotor.blade
-    assert (craft.name, rotor.blades, craft.mass, craft.tail_rotor, craft.key) == ("Test rotor", 3, 1500.0, None, "")
+    assert (craft.name, rotor.blades, craft.mass, craft.tail_rotor, craft.key) == (
+        "Test rotor",
+        3,
+        1500.0,
+        None,
+        "",
+    )
     assert_allclose(rotor.angular_speed, 400.0 * 2.0 * math.pi / 60.0, rtol=1e-12)
     assert_allclose(rotor.reference_chord, 0.20 + 0.10 * (0.25 / 0.8), rtol=1e-12)  # at 0.75 R
     assert_allclose(np.rad2deg(rotor.builtin_twist([0.2, 1.0])), [6.0, -3.0], rtol=1e-12)
@@ -178,7 +192,11 @@ def test_any_value_of_any_key_is_read_or_refused_in_one_sentence():
                     unnamed += [refused[-1]] if odd in scaled and key[1] not in refused[-1] else []
     assert unnamed == []
     assert len(refused) > 800
-    assert [one for one in refused if not re.fullmatch(r"my\.toml(, line \d+|: an integer).*[:?] ?.*", one)] == []
+    assert [
+        one
+        for one in refused
+        if not re.fullmatch(r"my\.toml(, line \d+|: an integer).*[:?] ?.*", one)
+    ] == []
 
 
 def test_a_bad_span_is_reported_with_its_line():
@@ -187,22 +205,30 @@ def test_a_bad_span_is_reported_with_its_line():
   { start_r = 0.5, end_r = 1.0, section = "sc1095" },
 ]"""
     with pytest.raises(
-        ValueError, match=r"my\.toml, line 12: span of sc1095 runs 0\.5…1: write the spans in ascending order"
+        ValueError,
+        match=r"my\.toml, line 12: span of sc1095 runs 0\.5…1: write the spans in ascending order",
     ):
         read(GOOD.replace('section = "naca0012"', spans))
-    craft = read(GOOD.replace('section = "naca0012"', spans.replace("start_r = 0.5", "start_r = 0.7")))
+    craft = read(
+        GOOD.replace('section = "naca0012"', spans.replace("start_r = 0.5", "start_r = 0.7"))
+    )
     assert craft.rotor.blade.section_at(0.65)[:2] == ("naca0012", "sc1095")
 
 
 def test_a_users_deck_is_used_and_pickles():
-    text = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\noutline = "naca0012"\n'
+    text = (
+        GOOD.replace('"naca0012"', '"mine"')
+        + '\n[sections.mine]\ndeck = "mine.c81"\noutline = "naca0012"\n'
+    )
     craft = read(text, **{"mine.c81": DECK})
     assert craft.remarks == (
         "Section mine: deck over −180…180° at Mach 0…1; outline naca0012, 12.0 % thick, 0.0 % camber.",
     )
     section = pickle.loads(pickle.dumps(craft)).rotor.blade.installed("mine")
     alpha, mach = np.deg2rad(np.linspace(-180.0, 180.0, 73)), 0.37
-    assert_allclose(section.table(alpha, mach).cl, load_installed("naca0012").table(alpha, mach).cl, atol=1e-12)
+    assert_allclose(
+        section.table(alpha, mach).cl, load_installed("naca0012").table(alpha, mach).cl, atol=1e-12
+    )
     assert dict(craft.files.texts) == {"my.toml": text, "mine.c81": DECK}
 
 
@@ -218,7 +244,8 @@ def test_xfoil_polars_give_the_bundled_deck():
     ours, mine = load_installed("naca64208").table, craft.rotor.blade.installed("mine").table
     alpha = np.deg2rad(np.arange(-8.0, 8.5, 0.5))
     for mach in (0.3, 0.4):
-        assert_allclose(mine(alpha, mach).cl, ours(alpha, mach).cl, atol=1e-3)  # decks hold four decimals
+        # decks hold four decimals
+        assert_allclose(mine(alpha, mach).cl, ours(alpha, mach).cl, atol=1e-3)
         assert_allclose(mine(alpha, mach).cd, ours(alpha, mach).cd, atol=2e-5)
     # Beyond the fastest polar both go on by the same formulas, with other caps on lift.
     small = np.deg2rad(np.arange(-4.0, 4.5, 0.5))
@@ -260,7 +287,11 @@ def test_other_decks_are_interpolated_to_the_run_time_grid():
     at = {angle: k for k, angle in enumerate(deck.cl.alpha_deg)}
     assert_allclose(deck.cl.mach[[0, -1]], [0.3, 0.6], rtol=1e-12)
     assert_allclose(deck.cl.values[at[4.5], 0], 0.495, rtol=1e-3)
-    assert_allclose(deck.cl.values[at[90.0]], np.interp(90.0, ours.cl.alpha_deg, ours.cl.values[:, 3]), atol=0.01)
+    assert_allclose(
+        deck.cl.values[at[90.0]],
+        np.interp(90.0, ours.cl.alpha_deg, ours.cl.values[:, 3]),
+        atol=0.01,
+    )
     assert deck.cd.values.min() > 0.0
     with pytest.raises(ValueError, match=r"ODD: cl covers -4\.7…4\.7 deg: give at least −8…8 deg"):
         on_run_time_grid(C81Deck("ODD", C81Block(mach, alpha[2:5], lift.values[2:5]), drag, drag))
@@ -270,13 +301,19 @@ def test_assumptions_about_files_are_caveats():
     one = '\n[sections.mine]\npolars = "a.txt"\noutline = "naca0012"\n'
     craft = read(GOOD.replace('"naca0012"', '"mine"', 1) + one, **{"a.txt": polar_file(POLARS[2])})
     caveats = solve(make_design(rotor=craft, mu=0.2)).require().caveats
-    assert [caveat.name for caveat in caveats] == ["rotor-file", "no-tail-rotor", "no-blade-structure"]
+    assert [caveat.name for caveat in caveats] == [
+        "rotor-file",
+        "no-tail-rotor",
+        "no-blade-structure",
+    ]
 
 
 @pytest.mark.parametrize("page", ["docs/tutorials/mine.toml", "docs/rotor_file.md"])
 def test_the_examples_in_the_docs_are_rotor_files(page: str):
     text = (Path(__file__).parent.parent.parent.parent / page).read_text(encoding="utf-8")
-    example = text if page.endswith(".toml") else re.findall(r"```toml\n(.*?)```", text, re.DOTALL)[0]
+    example = (
+        text if page.endswith(".toml") else re.findall(r"```toml\n(.*?)```", text, re.DOTALL)[0]
+    )
     files = {f"n23012_m0{k + 1}.txt": polar_file(POLARS[k]) for k in (1, 2, 3)}
     assert solve(make_design(rotor=read(example, **files), mu=0.2)).converged
 
@@ -284,7 +321,9 @@ def test_the_examples_in_the_docs_are_rotor_files(page: str):
 def test_files_beside_the_rotor_file_are_found(tmp_path: Path):
     text = GOOD.replace('"naca0012"', '"mine"') + '\n[sections.mine]\ndeck = "mine.c81"\n'
     (tmp_path / "my.toml").write_text(text, encoding="utf-8")
-    with pytest.raises(ValueError, match=r"my\.toml, line 21: deck names 'mine\.c81', which is missing"):
+    with pytest.raises(
+        ValueError, match=r"my\.toml, line 21: deck names 'mine\.c81', which is missing"
+    ):
         load_rotor(tmp_path / "my.toml")
     (tmp_path / "mine.c81").write_text(DECK, encoding="utf-8")
     craft = load_rotor(tmp_path / "my.toml")
@@ -312,7 +351,10 @@ pitch_horn_m = 0.1
 def test_a_structure_makes_the_blade_elastic():
     craft = read(GOOD + STRUCTURE)
     structure = craft.rotor.blade.structure
-    assert (structure.torsional_stiffness, structure.control_stiffness) == ((5000.0, 4000.0), 20000.0)
+    assert (structure.torsional_stiffness, structure.control_stiffness) == (
+        (5000.0, 4000.0),
+        20000.0,
+    )
     assert structure.clamp == craft.rotor.blade.flap_hinge * craft.rotor.radius
     solution = solve(make_design(rotor=craft, mu=0.2)).require()
     assert solution.elastic is not None

@@ -74,14 +74,18 @@ def test_the_thesis_preset_on_another_rotor_has_a_caveat():
 
 def test_without_or_with_another_hub_or_tail_rotor_there_is_a_caveat():
     text = own("r22")["my.toml"]
-    craft = read_aircraft("my.toml", {"my.toml": re.sub(r"(?s)\[tail_rotor\].*\[airframe\]", "[airframe]", text)})
+    craft = read_aircraft(
+        "my.toml", {"my.toml": re.sub(r"(?s)\[tail_rotor\].*\[airframe\]", "[airframe]", text)}
+    )
     solution = solve(make_design(rotor=craft, mu=0.2)).require()
     assert_allclose(solution.power.tail, 0.05 * solution.power.main_rotor, rtol=1e-12)
     assert "no-tail-rotor" in [one.name for one in solution.caveats]
     text = own("r22")["my.toml"].replace("teetering-with-coning-hinges", "teetering")
     solution = solve(make_design(rotor=read_aircraft("my.toml", {"my.toml": text}), mu=0.1))
     assert [one.name for one in solution.caveats] == ["teetering", "no-blade-structure"]
-    assert [one.name for one in solve(make_design(rotor="r22", mu=0.1)).caveats] == ["no-blade-structure"]
+    assert [one.name for one in solve(make_design(rotor="r22", mu=0.1)).caveats] == [
+        "no-blade-structure"
+    ]
 
 
 @pytest.mark.parametrize("key", SHIPPED_ROTORS)
@@ -111,7 +115,12 @@ def test_a_shipped_twist_fits_any_rotor():
 def test_fewer_blades_have_a_greater_bound():
     """Two blades lose more by their number than five: the least induced power is above momentum theory's by more."""
     bounds = {key: find_bound(make_design(rotor=key, mu=0.2)) for key in SHIPPED_ROTORS}
-    assert bounds["r22"].any_circulation > bounds["uh60a"].any_circulation > bounds["s61"].any_circulation > 1.0
+    assert (
+        bounds["r22"].any_circulation
+        > bounds["uh60a"].any_circulation
+        > bounds["s61"].any_circulation
+        > 1.0
+    )
 
 
 def test_rotor_flag(printed: Callable[..., str], answer: Callable[..., Any], tmp_path: Path):

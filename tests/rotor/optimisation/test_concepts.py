@@ -75,7 +75,8 @@ def test_two_airfoils_change_the_blade_and_are_kept_in_a_design_file(tmp_path: P
     concept = find_concept("two-segment-two-airfoils", [0.6])
     design = concept.apply(make_design(mu=0.25), [math.radians(-8.0), math.radians(-14.0)])
     assert airfoils_spec(design.rotor) == "sc1094r8,sc1095@0.6"
-    assert replace(design.rotor.blade, spans=(own := make_design().rotor.blade).spans) == own  # Nothing else changes.
+    # Nothing else changes.
+    assert replace(design.rotor.blade, spans=(own := make_design().rotor.blade).spans) == own
     design.save(tmp_path / "design.json")
     back = load_design(tmp_path / "design.json")
     assert back.rotor == design.rotor
@@ -91,7 +92,12 @@ def test_restricted_parameters_are_fixed():
     assert held.twist([-0.3, 0.6]) == free.twist([-0.1, -0.3, 0.6])
     assert_allclose(held.slopes([-0.3, 0.6], R), free.slopes([-0.1, -0.3, 0.6], R)[1:])
     assert find_concept("two-segment", [0.7]).twist([-0.1, -0.2]) == free.twist([-0.1, -0.2, 0.7])
-    assert find_concept("three-segment", [0.3, 0.5]).twist([0.0, -0.1, -0.2]).spec().endswith("@0.3,0.5")
+    assert (
+        find_concept("three-segment", [0.3, 0.5])
+        .twist([0.0, -0.1, -0.2])
+        .spec()
+        .endswith("@0.3,0.5")
+    )
 
 
 def test_a_change_added_to_a_fixed_law():
@@ -102,6 +108,8 @@ def test_a_change_added_to_a_fixed_law():
     assert changed.twist.spec() == "uh60a+segments:-2,1@0.5"
     assert airfoils_spec(changed.rotor) == "sc1094r8,sc1095@0.5"
     assert_allclose(changed.twist(R) - design.twist(R), CONCEPTS[concept.name].twist(values)(R))
-    assert_allclose(nearest(on_top(CONCEPTS["linear"], design.twist), design.twist), [0.0], atol=1e-9)
+    assert_allclose(
+        nearest(on_top(CONCEPTS["linear"], design.twist), design.twist), [0.0], atol=1e-9
+    )
     law = parse_twist("linear:+3+uh60a", builtin=design.twist)
     assert_allclose(law(R), math.radians(3.0) * (R - 0.75) + design.twist(R))

@@ -23,8 +23,19 @@ from tests.patched import Patch
 from tests.uncertain import either_side
 
 MU = 0.3
-CONDITIONS = {"hover": {"hover": True}, "µ 0.2": {"mu": 0.2}, "µ 0.3": {"mu": 0.3}, "µ 0.35": {"mu": 0.35}}
-ROWS = ("section_lift_percent", "section_moment", "drag_rise_mach", "drag_area_percent", "torsional_stiffness_percent")
+CONDITIONS = {
+    "hover": {"hover": True},
+    "µ 0.2": {"mu": 0.2},
+    "µ 0.3": {"mu": 0.3},
+    "µ 0.35": {"mu": 0.35},
+}
+ROWS = (
+    "section_lift_percent",
+    "section_moment",
+    "drag_rise_mach",
+    "drag_area_percent",
+    "torsional_stiffness_percent",
+)
 
 
 def best_rate(design: Design) -> float:
@@ -35,7 +46,12 @@ def best_rate(design: Design) -> float:
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("name", "condition"),
-    [(name, at) for name in ROWS for at in CONDITIONS if (name, at) != ("drag_area_percent", "hover")],
+    [
+        (name, at)
+        for name in ROWS
+        for at in CONDITIONS
+        if (name, at) != ("drag_area_percent", "hover")
+    ],
 )
 def test_the_best_twist_moves_as_new_searches_find(name: str, condition: str, patch: Patch):
     """Half the difference between an input larger and one smaller by its size; within 15 % of the whole band."""
@@ -47,23 +63,32 @@ def test_the_best_twist_moves_as_new_searches_find(name: str, condition: str, pa
     print(
         f"{name} {condition}: {math.degrees(0.5 * (ends[0] - ends[1])):.2f}, first order {math.degrees(expected):.2f}°"
     )
-    assert 0.5 * (ends[0] - ends[1]) == pytest.approx(expected, abs=0.15 * 0.5 * (band.high - band.low))
+    assert 0.5 * (ends[0] - ends[1]) == pytest.approx(
+        expected, abs=0.15 * 0.5 * (band.high - band.low)
+    )
 
 
 @pytest.mark.parametrize(
-    "mu", [0.1, pytest.param(0.2, marks=pytest.mark.slow), pytest.param(0.3, marks=pytest.mark.slow)]
+    "mu",
+    [0.1, pytest.param(0.2, marks=pytest.mark.slow), pytest.param(0.3, marks=pytest.mark.slow)],
 )
 def test_the_range_holds_the_best_twists_of_other_wakes(mu: float, patch: Patch):
     """Of Pitt and Peters' inflow, and of a wake along Beddoes' path; each shift as a new search finds it."""
     design = rotor.make_design(mu=mu)
     patch("rotor.optimisation.doubt.MOST_INPUTS", 99)
     best = rotor.optimise(design, "linear", starts=1)
-    (band,), (rate,), shifts = best.doubt_band, best.best.parameters, dict(best.doubt_band[0].causes)
+    (band,), (rate,), shifts = (
+        best.doubt_band,
+        best.best.parameters,
+        dict(best.doubt_band[0].causes),
+    )
     found = {"inflow pitt-peters": best_rate(with_other_inflow(design)) - rate}
     patch("rotor.aero.problem.WakeCourse", partial(WakeCourse, beddoes=1.0))
     found["path of the wake"] = best_rate(design) - rate
     for name, shift in found.items():
-        print(f"mu {mu}, {name}: {math.degrees(shift):.2f}, stated {math.degrees(shifts[name]):.2f}°")
+        print(
+            f"mu {mu}, {name}: {math.degrees(shift):.2f}, stated {math.degrees(shifts[name]):.2f}°"
+        )
         assert band.low < rate + shift < band.high
         assert shifts[name] == pytest.approx(shift, abs=0.15 * 0.5 * (band.high - band.low))
     # Another model is right or it is not: it widens the range to its own side only.
@@ -87,9 +112,13 @@ def test_a_search_says_how_sure_its_saving_is():
 def test_over_conditions_rows_are_means():
     design, other = rotor.make_design(mu=0.2), rotor.make_design(mu=0.2, twist="linear:-8")
     both = saving_doubt(over_conditions(other, [(0.1, 1.0), (0.3, 3.0)]), other, design)
-    alone = [doubt(rotor.solve(other.at(mu=mu)), rotor.solve(design.at(mu=mu))) for mu in (0.1, 0.3)]
+    alone = [
+        doubt(rotor.solve(other.at(mu=mu)), rotor.solve(design.at(mu=mu))) for mu in (0.1, 0.3)
+    ]
     for row in both.rows:
-        first, second = ({each.name: each.power for each in found.rows}.get(row.name, 0.0) for found in alone)
+        first, second = (
+            {each.name: each.power for each in found.rows}.get(row.name, 0.0) for found in alone
+        )
         assert row.power == pytest.approx(0.25 * first + 0.75 * second, rel=1e-3, abs=1.0)
 
 
@@ -110,7 +139,10 @@ def test_induced_power_has_a_band_of_its_own():
 
 def test_hover_has_another_wake_with_more_twist(answer: Callable[..., Any]):
     found = answer("optimise", "--hover", "--starts", "1", "--doubt")
-    line, ours = found["models"]["inflow lifting-line"]["parameters"]["rate_deg"], found["parameters"]["rate_deg"]
+    line, ours = (
+        found["models"]["inflow lifting-line"]["parameters"]["rate_deg"],
+        found["parameters"]["rate_deg"],
+    )
     low, high = found["doubt_band"]["rate_deg"]
     assert line < ours - 1.0
     assert low < ours < high
@@ -159,7 +191,9 @@ def test_ends_are_those_of_searches_alone():
 
 
 def test_on_a_stand_neither_mass_nor_drag_counts():
-    stand = rotor.make_design(rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06})
+    stand = rotor.make_design(
+        rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06}
+    )
     assert nearby_flights(stand) == []
     free = rotor.make_design(rotor="pca2", mu=0.2, trim="free-rotor", stand={"ct_over_sigma": 0.07})
     with pytest.raises(ValueError, match="takes no power"):

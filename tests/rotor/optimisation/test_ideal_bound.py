@@ -30,7 +30,9 @@ from tests.tools.ideal_bound import (
 COARSE = LiftingLine(4, 0.13, 16, 36)
 CHORD = 0.5273 / 8.1778
 """c/R (thesis tables 3.1, 3.2)."""
-ROWS = {row["mu"]: row for row in csv_rows(Path(__file__).parents[2] / "data/inflow/bound_kappa.csv")}
+ROWS = {
+    row["mu"]: row for row in csv_rows(Path(__file__).parents[2] / "data/inflow/bound_kappa.csv")
+}
 
 
 class HelixWithMassFlow(WakeCourse):
@@ -51,13 +53,17 @@ class Helix(HelixWithMassFlow):
         return 1.0
 
 
-def condition(mu: str, line: LiftingLine = COARSE, wake: type[WakeCourse] = Helix) -> tuple[LinesInWake, float]:
+def condition(
+    mu: str, line: LiftingLine = COARSE, wake: type[WakeCourse] = Helix
+) -> tuple[LinesInWake, float]:
     """The table's UH-60A and its C_T: coning 0.06, and the tilt that carries 3.27 m² of drag."""
     row, speed = ROWS[mu], float(mu)
     thrust = float(row["CT"])
     tilt = math.asin(0.5 * speed**2 * 3.27 / (math.pi * 8.1778**2) / thrust)
     flow = speed * math.cos(tilt), speed * math.sin(tilt), float(row["lam0_Glauert"])
-    return LinesInWake(line, wake(*flow, coning=0.06, flap_1c=0.0, flap_1s=0.0, core=(1e-6, 1e-9))), thrust
+    return LinesInWake(
+        line, wake(*flow, coning=0.06, flap_1c=0.0, flap_1s=0.0, core=(1e-6, 1e-9))
+    ), thrust
 
 
 def over_glauert(lines: LinesInWake, thrust: float, result: InducedPower) -> float:
@@ -78,16 +84,22 @@ def compare(line: LiftingLine, mu: str) -> tuple[list[float], list[float]]:
     }
     found["best_lin"] = least_twisted_power(lines, thrust, CHORD, 0.0 * r, linear[None])
     found["any_twist_cheb7"] = least_twisted_power(lines, thrust, CHORD, 0.0 * r, any_twist)
-    return [over_glauert(lines, thrust, one) for one in found.values()], [float(row[name]) for name in found]
+    return [over_glauert(lines, thrust, one) for one in found.values()], [
+        float(row[name]) for name in found
+    ]
 
 
 TOLERANCE = {"0.1": 0.005, "0.2": 0.015, "0.3": 0.02}
 """The table's lattice is good to 1 or 2 %."""
 
 
-@pytest.mark.parametrize("grid", [(PANELS, 36), pytest.param((20, 72), marks=pytest.mark.slow)], ids=["ours", "its"])
+@pytest.mark.parametrize(
+    "grid", [(PANELS, 36), pytest.param((20, 72), marks=pytest.mark.slow)], ids=["ours", "its"]
+)
 @pytest.mark.parametrize("mu", TOLERANCE)
-def test_bounds_match_an_independent_program(mu: str, grid: tuple[int, int], monkeypatch: pytest.MonkeyPatch):
+def test_bounds_match_an_independent_program(
+    mu: str, grid: tuple[int, int], monkeypatch: pytest.MonkeyPatch
+):
     """With its core of a blade's own young trailers. With ours, any circulation at 2/rev and above needs less.
 
     Up to 4 % at µ 0.3; steady twists need 1 % more.
@@ -109,12 +121,17 @@ def test_best_linear_twist():
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.3])
 def test_the_grid_is_fine_enough(mu: float):
     problem = with_course(build_problem(make_design(mu=mu)))
-    lines = [LinesInWake(LiftingLine(4, 0.13, *grid), problem.course) for grid in ((PANELS, AZIMUTHS), (32, 96))]
+    lines = [
+        LinesInWake(LiftingLine(4, 0.13, *grid), problem.course)
+        for grid in ((PANELS, AZIMUTHS), (32, 96))
+    ]
     ours, finer = (
         [
             least_induced_power(one, 0.0065).coefficient,
             least_induced_power(one, 0.0065, chord=CHORD).coefficient,
-            least_twisted_power(one, 0.0065, CHORD, 0.0 * one.line.r, (one.line.r - 0.75)[None]).coefficient,
+            least_twisted_power(
+                one, 0.0065, CHORD, 0.0 * one.line.r, (one.line.r - 0.75)[None]
+            ).coefficient,
         ]
         for one in lines
     )
@@ -145,12 +162,22 @@ def test_the_mass_flow_draws_bounds_to_the_mean_inflow():
     ours, _ = condition("0.1", wake=HelixWithMassFlow)
     share = ours.course.mass_flow
     assert share > 1.05
-    before, after = (over_glauert(one, thrust, least_induced_power(one, thrust)) for one in (lines, ours))
+    before, after = (
+        over_glauert(one, thrust, least_induced_power(one, thrust)) for one in (lines, ours)
+    )
     assert after - 1.0 == pytest.approx((before - 1.0) / share, rel=1e-6)
-    twisted = [least_twisted_power(one, thrust, CHORD, math.radians(-8.0) * (COARSE.r - 0.75)) for one in (lines, ours)]
-    before, after = (over_glauert(one, thrust, power) for one, power in zip((lines, ours), twisted, strict=True))
+    twisted = [
+        least_twisted_power(one, thrust, CHORD, math.radians(-8.0) * (COARSE.r - 0.75))
+        for one in (lines, ours)
+    ]
+    before, after = (
+        over_glauert(one, thrust, power) for one, power in zip((lines, ours), twisted, strict=True)
+    )
     assert after - 1.0 == pytest.approx((before - 1.0) / share, rel=0.1)
-    again = lines.matrix @ twisted[1].circulation.ravel() / share + (1.0 - 1.0 / share) * ours.course.lambda0
+    again = (
+        lines.matrix @ twisted[1].circulation.ravel() / share
+        + (1.0 - 1.0 / share) * ours.course.lambda0
+    )
     assert_allclose(twisted[1].induced.ravel(), again, rtol=1e-12, atol=1e-15)
 
 
@@ -188,10 +215,14 @@ def test_bounds_are_ordered():
     r = COARSE.r
     given = least_twisted_power(lines, thrust, CHORD, math.radians(-16.0) * (r - 0.75)).coefficient
     straight = least_twisted_power(lines, thrust, CHORD, 0.0 * r, (r - 0.75)[None]).coefficient
-    bent = least_twisted_power(lines, thrust, CHORD, 0.0 * r, np.stack([r - 0.75, (r - 0.75) ** 2])).coefficient
+    bent = least_twisted_power(
+        lines, thrust, CHORD, 0.0 * r, np.stack([r - 0.75, (r - 0.75) ** 2])
+    ).coefficient
     assert bent <= straight <= given
     bound = find_bound(make_design(mu=0.2))
-    assert 1.0 < bound.any_circulation < bound.lift_limited < bound.steady_twist < bound.linear_twist
+    assert (
+        1.0 < bound.any_circulation < bound.lift_limited < bound.steady_twist < bound.linear_twist
+    )
 
 
 def test_an_impossible_lift_limit_is_reported():
@@ -207,17 +238,29 @@ def test_an_impossible_lift_limit_is_reported():
 @pytest.mark.parametrize("mu", ["0.2", "0.3"])
 def test_the_shipped_table_is_reproduced(mu: str):
     made = dict(zip(COLUMNS, row(make_design(mu=float(mu), mass_kg=8322.4)), strict=True))
-    shipped = next(r for r in csv_rows(asset_path("ideal_bound.csv")) if (r["mu"], r["mass_kg"]) == (mu, "8322.4"))
+    shipped = next(
+        r
+        for r in csv_rows(asset_path("ideal_bound.csv"))
+        if (r["mu"], r["mass_kg"]) == (mu, "8322.4")
+    )
     assert list(made) == list(shipped)
-    assert_allclose([float(v) for v in made.values()], [float(v) for v in shipped.values()], rtol=2e-3)
+    assert_allclose(
+        [float(v) for v in made.values()], [float(v) for v in shipped.values()], rtol=2e-3
+    )
 
 
 def test_the_table_counts_from_momentum_theory():
     """Its power is that of a trim with uniform inflow and the ideal twist; its factor is what the page reads."""
-    row = next(r for r in csv_rows(asset_path("ideal_bound.csv")) if (r["mu"], r["mass_kg"]) == ("0.2", "8322.4"))
+    row = next(
+        r
+        for r in csv_rows(asset_path("ideal_bound.csv"))
+        if (r["mu"], r["mass_kg"]) == ("0.2", "8322.4")
+    )
     uniform = solve(make_design(mu=0.2, inflow="uniform", off="tip-loss", twist="ideal")).require()
     assert_allclose(float(row["glauert_kw"]), uniform.power.induced / 1e3, rtol=0.02)
-    assert_allclose(ideal_factor(0.2, float(row["ct"])) or math.nan, float(row["lift_limited"]), rtol=1e-3)
+    assert_allclose(
+        ideal_factor(0.2, float(row["ct"])) or math.nan, float(row["lift_limited"]), rtol=1e-3
+    )
 
 
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.3])

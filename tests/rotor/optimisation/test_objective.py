@@ -38,7 +38,10 @@ def test_hover_and_cruise():
 def test_a_design_that_does_not_trim_has_no_power():
     """None, not zero or NaN, with the message of the condition that failed."""
     design = small(0.2)
-    conditions = (WeightedCondition(design.condition), WeightedCondition(FlightCondition(0.0, 20000.0, 4000.0)))
+    conditions = (
+        WeightedCondition(design.condition),
+        WeightedCondition(FlightCondition(0.0, 20000.0, 4000.0)),
+    )
     made = evaluate_objective(Objective("total", conditions), design)
     assert made.power is None
     assert made.by_pitch is None
@@ -57,7 +60,9 @@ def test_stalled_share_has_exact_slopes(preset: str, mu: float):
     exact = concept.slopes(values, centre.disk.r) @ slope
 
     def area(at: np.ndarray) -> float:
-        return stalled_share(Analysis(solve(concept.apply(design, at), centre, tight).require()).adjoint)[0]
+        return stalled_share(
+            Analysis(solve(concept.apply(design, at), centre, tight).require()).adjoint
+        )[0]
 
     measured = [(area(values + step * e) - area(values - step * e)) / (2 * step) for e in np.eye(2)]
     assert_allclose(exact, measured, atol=2e-5 * max(np.abs(exact).max(), 1e-3), rtol=0.0)
@@ -80,7 +85,9 @@ MISSION = "# a day\nmu,mass_kg,altitude_m,hours,climb_m_s\n0,9000,0,0.5   # hove
 def test_mission_file(tmp_path: Path):
     path = tmp_path / "mission.csv"
     path.write_text(MISSION)
-    first, second, third = legs = read_mission(path, make_design(mass_kg=8000.0, altitude_m=200.0, climb_m_s=1.0))
+    first, second, third = legs = read_mission(
+        path, make_design(mass_kg=8000.0, altitude_m=200.0, climb_m_s=1.0)
+    )
     assert [leg.flight.climb_speed for leg in legs] == [1.0, -3.0, 1.0]
     assert (first.flight.advance_ratio, first.flight.mass, first.hours) == (0.0, 9000.0, 0.5)
     assert (second.flight.mass, second.flight.altitude, second.hours) == (8000.0, 1500.0, 2.0)

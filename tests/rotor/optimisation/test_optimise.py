@@ -37,7 +37,10 @@ def small(mu: float, twist: str | None = None) -> Design:
 
 
 def searched(
-    design: Design, concept: Concept | str = "linear", objective: Objective | None = None, **choices: Any
+    design: Design,
+    concept: Concept | str = "linear",
+    objective: Objective | None = None,
+    **choices: Any,
 ) -> tuple[Optimum, Minimum]:
     """From two starts and without the band, unless asked for; it has a best."""
     family = CONCEPTS[concept] if isinstance(concept, str) else concept
@@ -69,7 +72,9 @@ def test_the_free_division_is_no_worse_than_any_fixed_one():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("mu", [0.0, *(pytest.param(mu, marks=pytest.mark.nightly) for mu in (0.1, 0.2, 0.3)), 0.35])
+@pytest.mark.parametrize(
+    "mu", [0.0, *(pytest.param(mu, marks=pytest.mark.nightly) for mu in (0.1, 0.2, 0.3)), 0.35]
+)
 def test_no_point_of_a_fine_grid_is_better(mu: float):
     design = make_design(mu=mu)
     powers = grid_powers(design, "linear", np.radians(np.arange(-30.0, 10.01, 0.1)))
@@ -105,7 +110,8 @@ def test_the_same_seed_gives_the_same_search():
     searches = search, pickle.loads(pickle.dumps(search)), replace(search, seed=5)
     first, again, other = (replace(run_search(one), elapsed=0.0) for one in searches)
     assert first == again
-    assert_allclose(other.best.power, first.best.power, rtol=1e-6)  # The same minimum from elsewhere.
+    # The same minimum from elsewhere.
+    assert_allclose(other.best.power, first.best.power, rtol=1e-6)
 
 
 def test_bounds_rate_and_change_limits_are_kept():
@@ -148,7 +154,10 @@ def test_stalled_area_limit_is_kept():
     design = small(0.36)
 
     def stalled(twisted: Design) -> float:
-        return evaluate_objective(at_condition(design), twisted, limits=Limits(stalled=1.0)).limited[0] / 100.0
+        return (
+            evaluate_objective(at_condition(design), twisted, limits=Limits(stalled=1.0)).limited[0]
+            / 100.0
+        )
 
     free, best = searched(design, "two-segment")
     limit = 0.9 * stalled(free.design)
@@ -161,7 +170,8 @@ def test_stalled_area_limit_is_kept():
 def test_progress_reports_every_evaluation_and_the_best_never_increases():
     heard: list[Progress] = []
     found = run_search(Search(small(0.2), CONCEPTS["two-segment"], starts=3), heard.append)
-    assert [progress.evaluation for progress in heard] == list(range(2, found.evaluations + 1))  # 1: the baseline.
+    # 1: the baseline.
+    assert [progress.evaluation for progress in heard] == list(range(2, found.evaluations + 1))
     best = [progress.best_power for progress in heard if progress.best_power is not None]
     assert all(later <= earlier for earlier, later in pairwise(best))
     assert {progress.phase for progress in heard} == {"search", "band"}
@@ -173,19 +183,32 @@ def test_progress_reports_every_evaluation_and_the_best_never_increases():
 @pytest.mark.parametrize("after", [1, 11, 30])
 def test_stopping_keeps_the_best_so_far(after: int):
     heard: list[Progress] = []
-    found = run_search(Search(small(0.2), CONCEPTS["free-form"]), heard.append, lambda: len(heard) >= after)
+    found = run_search(
+        Search(small(0.2), CONCEPTS["free-form"]), heard.append, lambda: len(heard) >= after
+    )
     assert found.status is SearchStatus.STOPPED
     assert len(heard) == after
-    assert_allclose(found.best.power, min(progress.power or math.inf for progress in heard), rtol=1e-9)
+    assert_allclose(
+        found.best.power, min(progress.power or math.inf for progress in heard), rtol=1e-9
+    )
     assert "Stopped" in found.message
     none = run_search(Search(small(0.2), CONCEPTS["linear"]), None, lambda: True)
-    assert (none.status, none.best, none.minima, none.saving) == (SearchStatus.STOPPED, None, (), None)
+    assert (none.status, none.best, none.minima, none.saving) == (
+        SearchStatus.STOPPED,
+        None,
+        (),
+        None,
+    )
 
 
 @pytest.mark.parametrize(
     ("design", "limits", "words"),
     [
-        (small(0.2).at(mu=0.0, mass_kg=20000.0, altitude_m=4000.0), Limits(), "No starting point has a trim"),
+        (
+            small(0.2).at(mu=0.0, mass_kg=20000.0, altitude_m=4000.0),
+            Limits(),
+            "No starting point has a trim",
+        ),
         (small(0.36), Limits(stalled=1e-4), "limits"),  # That no blade can keep.
     ],
 )
@@ -200,14 +223,20 @@ def test_starts_that_do_not_trim_do_not_end_the_search():
     """At µ 0.4 and 9.3 t strong untwist does not trim: the search avoids it."""
     design = small(0.4).at(mass_kg=9300.0)
     _, best = searched(design, starts=4)
-    assert best.power <= grid_powers(design, "linear", np.radians(np.arange(-28.0, 9.0, 2.0))).min() * (1 + 1e-5)
+    assert best.power <= grid_powers(
+        design, "linear", np.radians(np.arange(-28.0, 9.0, 2.0))
+    ).min() * (1 + 1e-5)
 
 
 @pytest.mark.parametrize("quantity", POWERS)
 def test_mission_optimum_is_between_those_of_its_conditions(quantity: Quantity):
     design = small(0.2)
-    conditions = tuple(WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in (0.1, 0.3))
-    alone = [searched(design, "linear", Objective(quantity, (condition,)))[1] for condition in conditions]
+    conditions = tuple(
+        WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in (0.1, 0.3)
+    )
+    alone = [
+        searched(design, "linear", Objective(quantity, (condition,)))[1] for condition in conditions
+    ]
     _, both = searched(design, "linear", Objective(quantity, conditions))
     rates = [one.parameters[0] for one in alone]
     assert min(rates) <= both.parameters[0] <= max(rates)
@@ -226,24 +255,40 @@ class TestVibration:
     @pytest.mark.parametrize("quantity", ["vibration", "total"])
     def test_gradients_over_two_conditions(self, quantity: Quantity):
         """Slopes of objective and limits by twist in two segments, against differences of tight trims."""
-        concept, design, held = CONCEPTS["two-segment"], self.bent(0.3), Limits(index=3.0, stalled=0.1)
-        conditions = tuple(
-            WeightedCondition(self.bent(mu).condition, hours) for mu, hours in ((0.25, 2.0), (0.33, 1.0))
+        concept, design, held = (
+            CONCEPTS["two-segment"],
+            self.bent(0.3),
+            Limits(index=3.0, stalled=0.1),
         )
-        objective, values, step = Objective(quantity, conditions), np.radians([-8.0, -11.0]), math.radians(0.05)
-        found = evaluate_objective(objective, concept.apply(design, values), limits=held, options=self.TIGHT)
+        conditions = tuple(
+            WeightedCondition(self.bent(mu).condition, hours)
+            for mu, hours in ((0.25, 2.0), (0.33, 1.0))
+        )
+        objective, values, step = (
+            Objective(quantity, conditions),
+            np.radians([-8.0, -11.0]),
+            math.radians(0.05),
+        )
+        found = evaluate_objective(
+            objective, concept.apply(design, values), limits=held, options=self.TIGHT
+        )
         assert found.by_pitch is not None
         slopes = concept.slopes(values, build_problem(design).disk.r)
         for k, along in enumerate(np.eye(2)):
             low, high = (
                 evaluate_objective(
-                    objective, concept.apply(design, values + sign * step * along), limits=held, options=self.TIGHT
+                    objective,
+                    concept.apply(design, values + sign * step * along),
+                    limits=held,
+                    options=self.TIGHT,
                 )
                 for sign in (-1.0, 1.0)
             )
             assert high.value is not None
             assert low.value is not None
-            assert_allclose(slopes[k] @ found.by_pitch, (high.value - low.value) / (2.0 * step), rtol=1e-3)
+            assert_allclose(
+                slopes[k] @ found.by_pitch, (high.value - low.value) / (2.0 * step), rtol=1e-3
+            )
             expected = (np.array(high.limited) - np.array(low.limited)) / (2.0 * step)
             assert_allclose(found.limited_by_pitch[2:] @ slopes[k], expected[2:], rtol=1e-3)
         assert found.index is not None
@@ -252,7 +297,9 @@ class TestVibration:
     def test_least_index(self):
         """No linear twist of a grid has less, and the power beside it is that of the trim."""
         design = self.bent(0.3)
-        found, best = searched(design, "linear", at_condition(design, "vibration"), starts=3, band=True)
+        found, best = searched(
+            design, "linear", at_condition(design, "vibration"), starts=3, band=True
+        )
         assert found.status is SearchStatus.CONVERGED
         assert best.index is not None
         for rate in np.arange(-20.0, 6.0, 2.5).tolist():
@@ -279,10 +326,16 @@ class TestVibration:
         design, both = self.bent(0.3), hover_and_cruise(self.bent(0.3), 0.5, 0.3)
         search = Search(design, CONCEPTS["linear"])
         for change, words in (
-            ({"objective": at_condition(design.at(mu=0.1), "vibration")}, "advance ratio 0.1.*below µ 0.2"),
+            (
+                {"objective": at_condition(design.at(mu=0.1), "vibration")},
+                "advance ratio 0.1.*below µ 0.2",
+            ),
             ({"objective": both, "limits": Limits(index=3.0)}, "advance ratio 0 .*below µ 0.2"),
             ({"design": make_design(mu=0.3), "limits": Limits(index=3.0)}, "--bending"),
-            ({"design": make_design(rotor="r22", mu=0.25), "limits": Limits(index=3.0)}, "not known"),
+            (
+                {"design": make_design(rotor="r22", mu=0.25), "limits": Limits(index=3.0)},
+                "not known",
+            ),
         ):
             with pytest.raises(ValueError, match=words):
                 replace(search, **change)

@@ -10,7 +10,14 @@ import pytest
 from numpy.testing import assert_allclose
 
 from rotor import Design, Limits, make_design, solve
-from rotor.optimisation import CONCEPTS, Schedule, ScheduleOptimum, SchedulePlan, WeightedCondition, run_plan
+from rotor.optimisation import (
+    CONCEPTS,
+    Schedule,
+    ScheduleOptimum,
+    SchedulePlan,
+    WeightedCondition,
+    run_plan,
+)
 from rotor.optimisation.results import Minimum, SearchStatus
 from tests.solved import SAME
 
@@ -22,7 +29,9 @@ def small() -> Design:
 
 
 def plan(
-    *names: str, ratios: tuple[float, ...] = (0.0, 0.15, 0.3), hours: tuple[float, ...] = (1.0, 2.0, 1.0)
+    *names: str,
+    ratios: tuple[float, ...] = (0.0, 0.15, 0.3),
+    hours: tuple[float, ...] = (1.0, 2.0, 1.0),
 ) -> SchedulePlan:
     design = small()
     conditions = tuple(
@@ -46,11 +55,17 @@ def test_variable_twist_is_never_worse_than_the_best_fixed_blade(made: Schedule)
     """Means by the hours 1, 2, 1."""
     assert made.complete
     assert made.converged
-    assert [cell.condition for cell in made.cells] == [condition for condition in (0, 1, 2, None) for _ in NAMES]
+    assert [cell.condition for cell in made.cells] == [
+        condition for condition in (0, 1, 2, None) for _ in NAMES
+    ]
     for name in NAMES:
         worth = made.in_flight_gain(name)
         assert worth.moving <= worth.fixed * (1 + 1e-7) <= worth.baseline * (1 + 1e-7)
-        assert_allclose(worth.moving, np.dot([0.25, 0.5, 0.25], [power(made, k, name) for k in range(3)]), rtol=1e-12)
+        assert_allclose(
+            worth.moving,
+            np.dot([0.25, 0.5, 0.25], [power(made, k, name) for k in range(3)]),
+            rtol=1e-12,
+        )
         fixed = made.at(None, name)
         for condition in range(3):  # In every condition by itself, too.
             design = replace(fixed.design, condition=made.plan.conditions[condition].flight)
@@ -59,10 +74,16 @@ def test_variable_twist_is_never_worse_than_the_best_fixed_blade(made: Schedule)
 
 def test_concepts_with_more_parameters_are_never_worse(made: Schedule):
     for condition in (0, 1, 2, None):
-        for poor, rich in (("linear", "quadratic"), ("linear", "two-segment"), ("quadratic", "free-form")):
+        for poor, rich in (
+            ("linear", "quadratic"),
+            ("linear", "two-segment"),
+            ("quadratic", "free-form"),
+        ):
             assert power(made, condition, rich) <= power(made, condition, poor) * (1 + 2e-6)
         # The envelope of all, but for the kink that a smooth curve rounds off.
-        assert power(made, condition, "free-form") <= min(power(made, condition, name) for name in NAMES) * (1 + 3e-4)
+        assert power(made, condition, "free-form") <= min(
+            power(made, condition, name) for name in NAMES
+        ) * (1 + 3e-4)
 
 
 def test_variable_twist_saves_nothing_with_one_condition():
@@ -118,7 +139,9 @@ def test_a_condition_that_cannot_trim_is_reported():
     design = small()
     conditions = (
         WeightedCondition(design.condition),
-        WeightedCondition(replace(design.condition, advance_ratio=0.0, mass=20000.0, altitude=4000.0)),
+        WeightedCondition(
+            replace(design.condition, advance_ratio=0.0, mass=20000.0, altitude=4000.0)
+        ),
     )
     schedule = run_plan(SchedulePlan(design, (CONCEPTS["linear"],), conditions, starts=1))
     assert schedule.complete

@@ -23,7 +23,9 @@ TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_
 
 
 def bent(inflow: str, mu: float = 0.3, twist_per_rev: str = "", off: str = "") -> Design:
-    return rotor.make_design(mu=mu, inflow=inflow, bending=True, twist_per_rev=twist_per_rev, off=off)
+    return rotor.make_design(
+        mu=mu, inflow=inflow, bending=True, twist_per_rev=twist_per_rev, off=off
+    )
 
 
 def loads_of(solution: Solution) -> HubLoads:
@@ -36,7 +38,9 @@ def values_of(solution: Solution) -> np.ndarray:
     """As `TMatrix.base`."""
     loads = loads_of(solution)
     waves = [loads.amplitudes[name] * np.exp(1j * loads.phases[name]) for name in loads.amplitudes]
-    return np.array([part for wave in waves for part in (wave.real, wave.imag)] + [solution.power.total])
+    return np.array(
+        [part for wave in waves for part in (wave.real, wave.imag)] + [solution.power.total]
+    )
 
 
 @pytest.fixture(scope="module", params=[LINEAR, LINE])
@@ -45,7 +49,11 @@ def matrix(request: pytest.FixtureRequest) -> TMatrix:
 
 
 STAND = rotor.make_design(
-    mu=0.3, inflow=LINEAR, bending=True, trim="wind-tunnel", stand={"ct_over_sigma": 0.07, "shaft_tilt_deg": 5.0}
+    mu=0.3,
+    inflow=LINEAR,
+    bending=True,
+    trim="wind-tunnel",
+    stand={"ct_over_sigma": 0.07, "shaft_tilt_deg": 5.0},
 )
 
 
@@ -57,19 +65,29 @@ def test_slopes_are_those_of_trims(design: Design, column: int):
     assert_allclose(matrix.base, values_of(matrix.solution), rtol=1e-12)
     x = step * np.eye(4)[column]
     low, high = (
-        values_of(rotor.solve(with_harmonics(design, matrix.twist(sign * x)), options=TIGHT).require())
+        values_of(
+            rotor.solve(with_harmonics(design, matrix.twist(sign * x)), options=TIGHT).require()
+        )
         for sign in (-1.0, 1.0)
     )
     slopes = (high - low) / (2.0 * step)
-    assert_allclose(matrix.slopes[:-1, column], slopes[:-1], atol=2e-3 * float(np.abs(slopes[:-1]).max()))
+    assert_allclose(
+        matrix.slopes[:-1, column], slopes[:-1], atol=2e-3 * float(np.abs(slopes[:-1]).max())
+    )
     assert_allclose(matrix.slopes[-1, column], slopes[-1], rtol=5e-3)
 
 
 @pytest.mark.parametrize(
     ("inflow", "off", "power", "index", "load"),
-    [(LINEAR, "", 0.002, 0.012, 0.05), (LINE, "", 0.005, 0.03, 0.09), (LINE, "dynamic-stall", 0.0015, 0.015, 0.04)],
+    [
+        (LINEAR, "", 0.002, 0.012, 0.05),
+        (LINE, "", 0.005, 0.03, 0.09),
+        (LINE, "dynamic-stall", 0.0015, 0.015, 0.04),
+    ],
 )
-def test_response_is_that_of_the_trim(inflow: str, off: str, power: float, index: float, load: float):
+def test_response_is_that_of_the_trim(
+    inflow: str, off: str, power: float, index: float, load: float
+):
     """With a degree at rest; the linear part alone misses amplitudes by some per cent (reference: 1 to 6 %).
 
     What the quadratic response misses most with a lifting line is dynamic stall: see the last row. With linear inflow
@@ -84,7 +102,9 @@ def test_response_is_that_of_the_trim(inflow: str, off: str, power: float, index
         assert_allclose(found.index, loads.index, atol=index * base.index)
         for name, wave in found.loads.items():
             expected = loads.amplitudes[name] * np.exp(1j * loads.phases[name])
-            assert abs(wave - expected) < load * max(abs(base.loads[name]), loads.amplitudes[name]), (twist, name)
+            assert abs(wave - expected) < load * max(
+                abs(base.loads[name]), loads.amplitudes[name]
+            ), (twist, name)
 
 
 def test_slopes_of_power_and_index(matrix: TMatrix):
@@ -92,8 +112,12 @@ def test_slopes_of_power_and_index(matrix: TMatrix):
     x, step = 0.01 * np.cos(np.arange(8.0)), 1e-6
     slopes = matrix.power_and_index(x)[1]
     for k, one in enumerate(step * np.eye(8)):
-        expected = (matrix.power_and_index(x + one)[0] - matrix.power_and_index(x - one)[0]) / (2.0 * step)
-        assert_allclose(slopes[:, k], expected, rtol=1e-5, atol=1e-5 * float(np.abs(slopes[0]).max()))
+        expected = (matrix.power_and_index(x + one)[0] - matrix.power_and_index(x - one)[0]) / (
+            2.0 * step
+        )
+        assert_allclose(
+            slopes[:, k], expected, rtol=1e-5, atol=1e-5 * float(np.abs(slopes[0]).max())
+        )
 
 
 def test_front_of_active_twist():
@@ -114,8 +138,12 @@ def test_front_of_active_twist():
     assert front.preview_error[1] < 3.5
     for one in front.points:
         solution = rotor.solve(one.design).require()
-        assert_allclose((one.power, one.index), (solution.power.total, loads_of(solution).index), rtol=1e-5)
-        assert all(wave.amplitude < math.radians(1.0001) for wave in one.design.active_twist.harmonics)
+        assert_allclose(
+            (one.power, one.index), (solution.power.total, loads_of(solution).index), rtol=1e-5
+        )
+        assert all(
+            wave.amplitude < math.radians(1.0001) for wave in one.design.active_twist.harmonics
+        )
         assert one.over_inflows is not None
         assert one.band[0] <= one.index <= one.band[1]
     # No phase of either harmonic alone saves more power than the front's first point.
@@ -129,7 +157,9 @@ def test_front_of_static_twist():
     """Its ends are the twists of least power and of least index; less twist has less vibration at speed."""
     design = bent(LINEAR, 0.3)
     front = rotor.vibration_front(design, "linear", points=3)
-    least, calm = (rotor.optimise(design, "linear", quantity=one).best for one in ("total", "vibration"))
+    least, calm = (
+        rotor.optimise(design, "linear", quantity=one).best for one in ("total", "vibration")
+    )
     assert_allclose(front.points[0].power, least.power, rtol=1e-6)
     assert_allclose(front.points[-1].index, calm.index or 0.0, rtol=1e-4)
     for (power, index), (more, less) in pairwise(front.changes):
@@ -141,9 +171,22 @@ def test_front_of_static_twist():
 
 
 @pytest.mark.slow
-def test_front_command(capsys: pytest.CaptureFixture[str], answer: Callable[..., Any], tmp_path: Path):
+def test_front_command(
+    capsys: pytest.CaptureFixture[str], answer: Callable[..., Any], tmp_path: Path
+):
     path = tmp_path / "front.csv"
-    flags = ["front", "--mu", "0.3", "--bending", "--inflow", LINEAR, "--points", "2", "--csv", str(path)]
+    flags = [
+        "front",
+        "--mu",
+        "0.3",
+        "--bending",
+        "--inflow",
+        LINEAR,
+        "--points",
+        "2",
+        "--csv",
+        str(path),
+    ]
     found = answer(*flags)
     first, second = found["points"]
     assert (found["status"], found["start"]["index_change_percent"]) == ("converged", 0.0)
@@ -167,7 +210,9 @@ def test_sweep_has_columns_of_vibration():
     loads = loads_of(table[1])
     assert fast["index_percent"] == pytest.approx(loads.index)
     assert fast["hub_mx_nm"] == pytest.approx(loads.amplitudes["mx"])
-    low, high = (float(columns[name][1] or 0.0) for name in ("least_index_percent", "largest_index_percent"))
+    low, high = (
+        float(columns[name][1] or 0.0) for name in ("least_index_percent", "largest_index_percent")
+    )
     assert low <= loads.index <= high
     assert fast["lag_1_per_rev"] == pytest.approx(0.27, abs=0.005)
     assert "index_percent" not in rotor.sweep(rotor.make_design(mu=0.25), mu=[0.25]).columns

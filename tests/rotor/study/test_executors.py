@@ -7,7 +7,13 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor, ThreadPoolExecutor
+from concurrent.futures import (
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
 from contextlib import suppress
 from dataclasses import dataclass, field
 from multiprocessing import get_context
@@ -65,7 +71,9 @@ def start() -> "Iterator[Callable[..., subprocess.Popen[bytes]]]":
     def begin(*command: str | Path, **more: Any) -> "subprocess.Popen[Any]":
         # A `dask worker` does not look into its own folder for packages; the installed one may be another checkout.
         env = {**os.environ, "PYTHONPATH": str(ROOT)}
-        running.append(subprocess.Popen(list(command), cwd=ROOT, env=env, start_new_session=True, **more))
+        running.append(
+            subprocess.Popen(list(command), cwd=ROOT, env=env, start_new_session=True, **more)
+        )
         return running[-1]
 
     yield begin
@@ -93,7 +101,14 @@ def cluster(start: Callable[..., Any], tmp_path: Path) -> Cluster:
     until(lambda: address_file.exists() and address_file.stat().st_size > 0)
     cluster = Cluster(json.loads(address_file.read_text())["address"], scheduler)
     for _ in range(2):
-        one = ("--nthreads", "1", "--no-nanny", "--no-dashboard", "--local-directory", tmp_path / "scratch")
+        one = (
+            "--nthreads",
+            "1",
+            "--no-nanny",
+            "--no-dashboard",
+            "--local-directory",
+            tmp_path / "scratch",
+        )
         cluster.workers.append(start(DASK, "worker", cluster.address, *one, **QUIET))
     # Before there is work: a worker that comes late would find all of it done by the other.
     subprocess.run([sys.executable, "-c", _BOTH, cluster.address], check=True, timeout=PATIENCE)
@@ -112,11 +127,24 @@ def study_file(tmp_path: Path) -> Path:
 
 
 def command(file: Path, out: Path, *more: str) -> list[str]:
-    return [sys.executable, "-W", "error", "-m", "rotor", "study", str(file), "--out", str(out), *more]
+    return [
+        sys.executable,
+        "-W",
+        "error",
+        "-m",
+        "rotor",
+        "study",
+        str(file),
+        "--out",
+        str(out),
+        *more,
+    ]
 
 
 def finished(file: Path, out: Path, *more: str) -> "subprocess.CompletedProcess[str]":
-    return subprocess.run(command(file, out, *more), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE)
+    return subprocess.run(
+        command(file, out, *more), cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE
+    )
 
 
 def same_as_serial(file: Path, results: Results) -> None:
@@ -127,18 +155,34 @@ def same_as_serial(file: Path, results: Results) -> None:
     for chunk in (0, 17, study.chunks - 1):
         first, last = study.span(chunk)
         for row in evaluate_points(study, first, last):
-            for name in ("power_total_w", "power_induced_w", "collective_deg", "lambda0", "mu", "mass_kg"):
+            for name in (
+                "power_total_w",
+                "power_induced_w",
+                "collective_deg",
+                "lambda0",
+                "mu",
+                "mass_kg",
+            ):
                 assert_allclose(results.columns[name][row["point"]], row[name], rtol=1e-10)
 
 
 def workers_of(folder: Path) -> set[str]:
     parquet: Any = importlib.import_module("pyarrow.parquet")
-    return {parquet.read_metadata(path).metadata[b"worker"].decode() for path in folder.glob("chunk-*.parquet")}
+    return {
+        parquet.read_metadata(path).metadata[b"worker"].decode()
+        for path in folder.glob("chunk-*.parquet")
+    }
 
 
-def test_no_results_are_lost_with_a_killed_worker(cluster: Cluster, tmp_path: Path, start: Callable[..., Any]):
+def test_no_results_are_lost_with_a_killed_worker(
+    cluster: Cluster, tmp_path: Path, start: Callable[..., Any]
+):
     file, out = study_file(tmp_path), tmp_path / "out"
-    run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    run = start(
+        *command(file, out, "--scheduler", cluster.address),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+    )
     until(lambda: len(workers_of(out)) == 2, run)
     before = len(files(out))
     assert before < 75
@@ -165,7 +209,9 @@ def test_a_killed_run_continues_from_its_folder(tmp_path: Path, start: Callable[
 
 
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGTERM])
-def test_a_stop_leaves_usable_results(how: signal.Signals, tmp_path: Path, start: Callable[..., Any]):
+def test_a_stop_leaves_usable_results(
+    how: signal.Signals, tmp_path: Path, start: Callable[..., Any]
+):
     """SIGINT to the process group, as from a terminal; results so far are shown, and no process is left."""
     file, out = study_file(tmp_path), tmp_path / "out"
     run = start(*command(file, out), stdout=subprocess.PIPE, stderr=subprocess.PIPE)
@@ -189,16 +235,23 @@ def group_lives(group: int) -> bool:
 
 
 @pytest.mark.parametrize(
-    ("address", "remedy"), [("tcp://127.0.0.1:9", "dask scheduler"), ("tls://127.0.0.1:9", "set distributed.comm.tls")]
+    ("address", "remedy"),
+    [("tcp://127.0.0.1:9", "dask scheduler"), ("tls://127.0.0.1:9", "set distributed.comm.tls")],
 )
-def test_error_without_a_scheduler_at_the_address_is_one_sentence(address: str, remedy: str, tmp_path: Path):
+def test_error_without_a_scheduler_at_the_address_is_one_sentence(
+    address: str, remedy: str, tmp_path: Path
+):
     done = finished(study_file(tmp_path), tmp_path / "out", "--scheduler", address)
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert address in done.stderr
     assert remedy in done.stderr
 
 
-FEW = STUDY.replace('"6000:9000:100"', "[7000, 8000]").replace('"0.05:0.34:0.01"', '"0.1:0.3:0.05"').replace("25", "5")
+FEW = (
+    STUDY.replace('"6000:9000:100"', "[7000, 8000]")
+    .replace('"0.05:0.34:0.01"', '"0.1:0.3:0.05"')
+    .replace("25", "5")
+)
 """20 trims in four chunks."""
 
 
@@ -229,9 +282,14 @@ def test_any_executor_computes_the_same_numbers(tmp_path: Path):
     """Threads too, at the same time in one process, and processes of the standard library."""
     file = few(tmp_path)
     told: list[tuple[int, int]] = []
-    expected = run_study(file, out=tmp_path / "here", workers=1, notify=lambda *points: told.append(points))
+    expected = run_study(
+        file, out=tmp_path / "here", workers=1, notify=lambda *points: told.append(points)
+    )
     assert told == [(5, 20), (10, 20), (15, 20), (20, 20)]
-    with ThreadPoolExecutor(4) as threads, ProcessPoolExecutor(2, get_context("spawn")) as processes:
+    with (
+        ThreadPoolExecutor(4) as threads,
+        ProcessPoolExecutor(2, get_context("spawn")) as processes,
+    ):
         for name, executor in {"threads": threads, "processes": processes}.items():
             results = run_study(file, executor, out=tmp_path / name)
             for column in ("power_total_w", "collective_deg", "flap_1c_deg", "passes"):
@@ -261,15 +319,27 @@ def test_an_executor_that_is_gone_or_is_none_is_one_sentence(tmp_path: Path):
 
 def test_workers_of_another_version_are_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
     monkeypatch.setattr("rotor.study.run.package_version", lambda: "0.0")
-    with ThreadPoolExecutor(1) as threads, pytest.raises(ValueError, match="install the same version on every worker"):
+    with (
+        ThreadPoolExecutor(1) as threads,
+        pytest.raises(ValueError, match="install the same version on every worker"),
+    ):
         run_study(few(tmp_path), threads, out=tmp_path / "out")
 
 
 @pytest.mark.parametrize("missing", ["pyarrow", "distributed"])
 def test_a_missing_extra_is_one_sentence(missing: str, tmp_path: Path):
     hide = f"import sys; sys.modules[{missing!r}] = None; from rotor.__main__ import main; sys.exit(main(sys.argv[1:]))"
-    study = ["study", str(few(tmp_path)), "--out", str(tmp_path / "out"), "--scheduler", "tcp://127.0.0.1:9"]
-    done = subprocess.run([sys.executable, "-c", hide, *study], cwd=ROOT, capture_output=True, text=True)
+    study = [
+        "study",
+        str(few(tmp_path)),
+        "--out",
+        str(tmp_path / "out"),
+        "--scheduler",
+        "tcp://127.0.0.1:9",
+    ]
+    done = subprocess.run(
+        [sys.executable, "-c", hide, *study], cwd=ROOT, capture_output=True, text=True
+    )
     assert (done.returncode, done.stderr.count("\n")) == (2, 1)
     assert f"needs {missing}: pip install {missing}\n" in done.stderr
 
@@ -296,7 +366,10 @@ def test_a_cluster_without_workers_ends_the_study_and_what_is_done_is_kept(
     monkeypatch.setattr("rotor.study.cluster._WORKER_TIMEOUT", 2.0)
     file, out = study_file(tmp_path), tmp_path / "out"
     distributed: Any = importlib.import_module("distributed")
-    with distributed.Client(cluster.address) as client, pytest.raises(RuntimeError, match="no worker is left"):
+    with (
+        distributed.Client(cluster.address) as client,
+        pytest.raises(RuntimeError, match="no worker is left"),
+    ):
         run_study(file, client.get_executor(), out=out, notify=KillsAtThird(cluster.workers))
     kept = files(out)
     assert 3 <= len(kept) < 75
@@ -309,7 +382,11 @@ def test_a_run_whose_scheduler_ends_says_so_in_its_last_line(
     how: signal.Signals, cluster: Cluster, tmp_path: Path, start: Callable[..., Any]
 ):
     file, out = study_file(tmp_path), tmp_path / "out"
-    run = start(*command(file, out, "--scheduler", cluster.address), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    run = start(
+        *command(file, out, "--scheduler", cluster.address),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+    )
     until(lambda: len(files(out)) >= 3, run)
     cluster.scheduler.send_signal(how)
     assert run.wait(PATIENCE) == 1

@@ -70,7 +70,10 @@ def test_an_optimum_brings_its_blade_with_it(tmp_path: Path):
     for row in range(2):
         design = design_of_row(optima, row)
         assert_allclose(solve(design).power.total, optima.columns["power_total_w"][row], rtol=1e-7)
-    assert {span.section for span in design_of_row(optima, 1).rotor.blade.spans} == {"sc1094r8", "sc1095"}
+    assert {span.section for span in design_of_row(optima, 1).rotor.blade.spans} == {
+        "sc1094r8",
+        "sc1095",
+    }
 
 
 def test_a_single_file_says_enough(trims: tuple[Path, Results], tmp_path: Path):
@@ -97,7 +100,9 @@ def test_points_go_by_their_numbers_where_some_are_missing(tmp_path: Path):
         design_at(f"{tmp_path / 'some'}:3")
 
 
-def test_the_command_solves_and_saves_a_row(trims: tuple[Path, Results], tmp_path: Path, answer: Callable[..., Any]):
+def test_the_command_solves_and_saves_a_row(
+    trims: tuple[Path, Results], tmp_path: Path, answer: Callable[..., Any]
+):
     folder, results = trims
     file, row = tmp_path / "row.json", results.row_of(5)
     found = answer("solve", "--row", f"{folder}:5", "--save", str(file))

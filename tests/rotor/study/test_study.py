@@ -40,7 +40,10 @@ from rotor.trim import Analysis, analyse
 
 WHENCE = StudyProvenance("0.0", None, "0")
 COARSE = '[models]\ninflow = "pitt-peters"\nelements = 12\nazimuths = 24\n'
-SMALL = 'chunk = 4\n[axes]\nmu = [0.1, 0.2, 0.3]\nrate_deg = [-16, -8]\n[fixed]\nconcept = "linear"\n' + COARSE
+SMALL = (
+    'chunk = 4\n[axes]\nmu = [0.1, 0.2, 0.3]\nrate_deg = [-16, -8]\n[fixed]\nconcept = "linear"\n'
+    + COARSE
+)
 
 
 def test_points_are_in_small_steps_and_need_no_memory():
@@ -62,14 +65,18 @@ def test_points_are_in_small_steps_and_need_no_memory():
     assert places.at(37, 41) == points[37:41]
     assert sum(a["inflow"] != b["inflow"] for a, b in pairwise(points)) == 2  # Texts are slowest.
     axis = tuple(float(k) for k in range(1000))
-    places = StudyPoints((StudyAxis("mu", axis), StudyAxis("mass_kg", axis), StudyAxis("altitude_m", axis)), None)
+    places = StudyPoints(
+        (StudyAxis("mu", axis), StudyAxis("mass_kg", axis), StudyAxis("altitude_m", axis)), None
+    )
     assert places.count == 10**9
     assert places.at(10**9 - 1, 10**9)[0]["mu"] == 999.0
 
 
 @pytest.mark.parametrize("method", ["sobol", "latin-hypercube"])
 def test_samples_fill_their_ranges_and_are_ordered_in_small_steps(method: Any):
-    places = StudyPoints((), StudySample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0))))
+    places = StudyPoints(
+        (), StudySample(method, 500, 3, (("mu", 0.1, 0.3), ("mass_kg", 6000.0, 9000.0)))
+    )
     points = np.array([[point["mu"], point["mass_kg"]] for point in places.at(0, 500)])
     unit = (points - [0.1, 6000.0]) / [0.2, 3000.0]
     assert ((unit >= 0.0) & (unit <= 1.0)).all()
@@ -140,7 +147,11 @@ def alone_in_flight(row: dict[str, Any]) -> Design:
 
 
 def alone_on_a_stand(row: dict[str, Any]) -> Design:
-    stand = {"shaft_tilt_deg": row["stand_shaft_tilt_deg"], "ct_over_sigma": 0.075, "tip_mach": 0.691}
+    stand = {
+        "shaft_tilt_deg": row["stand_shaft_tilt_deg"],
+        "ct_over_sigma": 0.075,
+        "tip_mach": 0.691,
+    }
     return make_design(rotor="xv15", mu=0.15, trim="wind-tunnel", stand=stand, inflow="uniform")
 
 
@@ -161,11 +172,16 @@ def test_a_point_is_the_design_of_the_same_arguments(inflow: str):
     assert study_point.design_of(given, {}) == make_design(**given)
 
 
-def test_points_of_one_condition_in_step_have_the_rows_that_they_have_alone(monkeypatch: pytest.MonkeyPatch):
+def test_points_of_one_condition_in_step_have_the_rows_that_they_have_alone(
+    monkeypatch: pytest.MonkeyPatch,
+):
     """One that does not trim, or that fails, leaves the others."""
     text = '[axes]\nmu = [0.2, 0.3]\nrate_deg = [-18, -15, 90, -14]\n[fixed]\nconcept = "linear"\n'
     study = parse_study(text)
-    alone = [study_point.evaluate(values, study, WarmStarts({})) for values in study.values(0, study.count)]
+    alone = [
+        study_point.evaluate(values, study, WarmStarts({}))
+        for values in study.values(0, study.count)
+    ]
     by_themselves = list[str]()
 
     def recorded(design: Design, *rest: Any) -> Analysis:
@@ -180,15 +196,21 @@ def test_points_of_one_condition_in_step_have_the_rows_that_they_have_alone(monk
         del row["elapsed_ms"], one["elapsed_ms"]
         assert row.pop("point") in range(8)
         assert row == {
-            name: pytest.approx(x, rel=1e-11, abs=1e-11) if isinstance(x, float) else x for name, x in one.items()
+            name: pytest.approx(x, rel=1e-11, abs=1e-11) if isinstance(x, float) else x
+            for name, x in one.items()
         }
 
 
 def test_a_users_rotor_and_table_are_part_of_the_study(tmp_path: Path):
     """A worker has none of the user's files, so their contents are in the study."""
-    (tmp_path / "mine.toml").write_text(asset_path("r22.toml").read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "mine.toml").write_text(
+        asset_path("r22.toml").read_text(encoding="utf-8"), encoding="utf-8"
+    )
     (tmp_path / "twist.csv").write_text("0.1, 5\n1, -5\n")
-    text = f'[axes]\nrotor = ["mine.toml", "s61"]\n[fixed]\ntwist = "table:{tmp_path}/twist.csv"\n' + COARSE
+    text = (
+        f'[axes]\nrotor = ["mine.toml", "s61"]\n[fixed]\ntwist = "table:{tmp_path}/twist.csv"\n'
+        + COARSE
+    )
     (tmp_path / "study.toml").write_text(text, encoding="utf-8")
     study = read_study(tmp_path / "study.toml").study
     for name in ("mine.toml", "twist.csv"):
@@ -201,7 +223,10 @@ def test_a_users_rotor_and_table_are_part_of_the_study(tmp_path: Path):
 
 
 def test_the_row_of_an_optimum_has_its_results():
-    text = '[axes]\nmu = [0.2]\n[fixed]\nconcept = "two-segment"\ndivision = 0.6\n[optimum]\nstarts = 1\n' + COARSE
+    text = (
+        '[axes]\nmu = [0.2]\n[fixed]\nconcept = "two-segment"\ndivision = 0.6\n[optimum]\nstarts = 1\n'
+        + COARSE
+    )
     (row,) = evaluate_points(parse_study(text), 0, 1)
     assert row["status"] == "converged"
     assert row["division"] == 0.6
@@ -212,19 +237,29 @@ def test_the_row_of_an_optimum_has_its_results():
 
 
 def test_a_failed_point_is_a_row_with_a_message(monkeypatch: pytest.MonkeyPatch):
-    heavy = parse_study("[axes]\nmass_kg = [8000, 30000]\n[fixed]\nmu = 0\naltitude_m = 4000\n" + COARSE)
+    heavy = parse_study(
+        "[axes]\nmass_kg = [8000, 30000]\n[fixed]\nmu = 0\naltitude_m = 4000\n" + COARSE
+    )
     rows = evaluate_points(heavy, 0, 2)
     assert [row["status"] for row in rows] == ["converged", "not-converged"]
     assert "lower" in rows[1]["message"]
     assert "power_total_w" not in rows[1]
-    crossed = '[axes]\ninner_break = [0.3, 0.9]\n[fixed]\nconcept = "three-segment"\nouter_break = 0.8\n'
+    crossed = (
+        '[axes]\ninner_break = [0.3, 0.9]\n[fixed]\nconcept = "three-segment"\nouter_break = 0.8\n'
+    )
     rates = "inboard_rate_deg = -8\nmiddle_rate_deg = -8\noutboard_rate_deg = -8\n"
     with pytest.raises(ValueError, match="ascend"):
         parse_study(crossed + rates)  # Where one value alone is at fault, the file says so …
     both = crossed.replace("[0.3, 0.9]", "[0.3, 0.7]").replace("outer_break = 0.8\n", "") + rates
     both = both.replace("[fixed]", "outer_break = [0.8, 0.5]\n[fixed]")
     statuses = [row["status"] for row in evaluate_points(parse_study(both + COARSE), 0, 4)]
-    assert sorted(statuses) == ["bad-input", "converged", "converged", "converged"]  # … where a pair is, the row does.
+    # … where a pair is, the row does.
+    assert sorted(statuses) == [
+        "bad-input",
+        "converged",
+        "converged",
+        "converged",
+    ]
     monkeypatch.setattr("rotor.study.point.analyse", lambda *_: 1 / 0)
     (row,) = evaluate_points(parse_study("[axes]\nmu = [0.1]\n"), 0, 1)
     assert (row["status"], row["message"]) == ("error", "ZeroDivisionError: division by zero")
@@ -234,10 +269,17 @@ def test_a_guess_is_exact_for_quadratic_variation_and_the_nearest_trim_far_out()
     def collective(mu: float, mass: float) -> float:
         return 0.1 + 0.2 * mu + 1e-5 * mass - 0.4 * mu**2 + 3e-5 * mu * mass + 2e-8 * mass**2
 
-    solution, memory = solve(make_design(inflow="uniform")), WarmStarts({"mu": (0.0, 1.0), "mass_kg": (0.0, 2000.0)})
+    solution, memory = (
+        solve(make_design(inflow="uniform")),
+        WarmStarts({"mu": (0.0, 1.0), "mass_kg": (0.0, 2000.0)}),
+    )
     for mu, mass in (np.random.default_rng(1).random((30, 2)) * [1.0, 2000.0]).tolist():
-        start = replace(solution.start, state=replace(solution.controls, collective=collective(mu, mass)))
-        memory.keep({"mu": mu, "mass_kg": mass, "inflow": "uniform"}, replace(solution, start=start))
+        start = replace(
+            solution.start, state=replace(solution.controls, collective=collective(mu, mass))
+        )
+        memory.keep(
+            {"mu": mu, "mass_kg": mass, "inflow": "uniform"}, replace(solution, start=start)
+        )
 
     def guess(mu: float, mass: float) -> float:
         found = memory.guess({"mu": mu, "mass_kg": mass, "inflow": "uniform"}, hovering=False)
@@ -246,7 +288,11 @@ def test_a_guess_is_exact_for_quadratic_variation_and_the_nearest_trim_far_out()
     assert_allclose(guess(0.4, 900.0), collective(0.4, 900.0), rtol=1e-5)
     assert abs(guess(40.0, 900.0) - collective(0.0, 0.0)) < 1.0  # The quadratic itself gives −600.
     point = {"mu": 0.4, "mass_kg": 900.0, "inflow": "uniform"}
-    assert memory.guess(point | {"inflow": "drees"}, hovering=False) is memory.guess(point, hovering=True) is None
+    assert (
+        memory.guess(point | {"inflow": "drees"}, hovering=False)
+        is memory.guess(point, hovering=True)
+        is None
+    )
 
 
 def stored(folder: Path, text: str = SMALL, whence: StudyProvenance = WHENCE) -> StudyFolder:
@@ -259,7 +305,9 @@ def done(monkeypatch: pytest.MonkeyPatch) -> Callable[[StudyFolder, int], Finish
     return lambda store, chunk: evaluate_chunk(store.study, chunk, WHENCE)
 
 
-def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk]):
+def test_a_study_continues_from_its_folder(
+    tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk]
+):
     store = stored(tmp_path / "out")
     with pytest.raises(ValueError, match="another run writes"):
         stored(tmp_path / "out")
@@ -276,7 +324,9 @@ def test_a_study_continues_from_its_folder(tmp_path: Path, done: Callable[[Study
     with pytest.raises(ValueError, match="holds another study"):
         stored(tmp_path / "out", SMALL.replace("0.3]", "0.31]"))
     for other in (replace(WHENCE, version="0.1"), replace(WHENCE, commit="abc")):
-        with pytest.raises(ValueError, match=r"computed by rotor-explorer 0\.0, this is .*: give another --out DIR"):
+        with pytest.raises(
+            ValueError, match=r"computed by rotor-explorer 0\.0, this is .*: give another --out DIR"
+        ):
             stored(tmp_path / "out", whence=other)
     (tmp_path / "mine").mkdir()
     (tmp_path / "mine" / "letter.txt").write_text("dear")
@@ -294,10 +344,19 @@ def test_a_damaged_chunk_is_refused_and_computed_again(
     store.close()
     damaged = store.folder / "chunk-000001.parquet"
     whole = damaged.read_bytes()
-    flipped = [bytes((*whole[:k], whole[k] ^ 1 << k % 8, *whole[k + 1 :])) for k in range(0, len(whole), 11)]
+    flipped = [
+        bytes((*whole[:k], whole[k] ^ 1 << k % 8, *whole[k + 1 :]))
+        for k in range(0, len(whole), 11)
+    ]
     assert is_undamaged(whole)
     assert not any(map(is_undamaged, flipped))
-    for content in (whole[:-3], whole[: len(whole) // 2], b"", bytes(reversed(whole)), *flipped[::40]):
+    for content in (
+        whole[:-3],
+        whole[: len(whole) // 2],
+        b"",
+        bytes(reversed(whole)),
+        *flipped[::40],
+    ):
         damaged.write_bytes(content)
         sentence = refused("study", "show", str(store.folder))
         assert "chunk-000001.parquet" in sentence
@@ -316,8 +375,12 @@ def test_a_damaged_chunk_is_refused_and_computed_again(
     assert "was computed by rotor-explorer 0.0 at commit abc, this is rotor-explorer 0.0" in said[1]
 
 
-@pytest.mark.parametrize("error", [MemoryError("no more"), OSError(errno.ENOMEM, "no more"), SystemError("kernel")])
-def test_a_lack_of_memory_is_no_result(error: Exception, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+@pytest.mark.parametrize(
+    "error", [MemoryError("no more"), OSError(errno.ENOMEM, "no more"), SystemError("kernel")]
+)
+def test_a_lack_of_memory_is_no_result(
+    error: Exception, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+):
     if isinstance(error, SystemError):
         error.__cause__ = MemoryError()
     (file := tmp_path / "small.toml").write_text(SMALL)
@@ -332,12 +395,16 @@ def test_a_lack_of_memory_is_no_result(error: Exception, tmp_path: Path, monkeyp
     with ThreadPoolExecutor(1) as worker:
         assert run_study(file, worker, out=tmp_path / "out").good.all()
         failures.extend([error] * 5)
-        with pytest.raises(RuntimeError, match="1 chunk stopped their workers, perhaps for lack of memory"):
+        with pytest.raises(
+            RuntimeError, match="1 chunk stopped their workers, perhaps for lack of memory"
+        ):
             run_study(file, worker, out=tmp_path / "again")
         assert run_study(file, worker, out=tmp_path / "again").good.all()
 
 
-def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk]):
+def test_files_have_units_and_provenance(
+    tmp_path: Path, done: Callable[[StudyFolder, int], FinishedChunk]
+):
     parquet: Any = importlib.import_module("pyarrow.parquet")
     store = stored(tmp_path / "out")
     for chunk in range(2):
@@ -349,7 +416,10 @@ def test_files_have_units_and_provenance(tmp_path: Path, done: Callable[[StudyFo
     assert about["package_version"] == "0.0"
     assert json.loads(about["units"])["mass_kg"] == "kg"
     assert json.loads(about["PANDAS_ATTRS"])["units"] == json.loads(about["units"])
-    units = [QUANTITIES[f"stand_{key}"].unit for key in ("shaft_tilt_deg", "thrust_n", "hub_roll_nm", "density_kg_m3")]
+    units = [
+        QUANTITIES[f"stand_{key}"].unit
+        for key in ("shaft_tilt_deg", "thrust_n", "hub_roll_nm", "density_kg_m3")
+    ]
     assert units == ["°", "N", "N m", "kg/m³"]
     models = json.loads(about["models"])
     assert (models["inflow"], models["elements"], models["trim"], models["tip_loss"]) == (
@@ -374,7 +444,9 @@ def test_show_is_text_and_json(
     assert "least power_induced_w" in out
     assert "depends on, from the finished points" in out
     rows = list(csv.DictReader(io.StringIO(printed(*show, "--csv", "-"))))
-    assert [float(row["point"]) for row in rows] == read_results(tmp_path / "out").columns["point"].tolist()
+    assert [float(row["point"]) for row in rows] == read_results(tmp_path / "out").columns[
+        "point"
+    ].tolist()
     assert min(float(row["power_total_w"]) for row in rows) == shown["best"]["power_total_w"]
     assert "noise" in refused(*show, "--least", "noise")
 
@@ -382,8 +454,14 @@ def test_show_is_text_and_json(
 def results_of(**columns: Any) -> Results:
     axes = tuple(name for name in columns if name not in ("power_total_w", "status"))
     rows = len(columns["power_total_w"])
-    made = {name: np.array(values, dtype=object if name == "kind" else float) for name, values in columns.items()}
-    made |= {"point": np.arange(rows, dtype=float), "status": np.array(["converged"] * rows, dtype=object)}
+    made = {
+        name: np.array(values, dtype=object if name == "kind" else float)
+        for name, values in columns.items()
+    }
+    made |= {
+        "point": np.arange(rows, dtype=float),
+        "status": np.array(["converged"] * rows, dtype=object),
+    }
     return Results({"points": rows}, axes, made)
 
 
@@ -412,7 +490,8 @@ def test_effects_share_the_variance_by_the_formula():
     assert (found["x"].least_at, found["x"].most_at, found["x"].most) == (0.0, 1.0, 3.5)
     many = np.linspace(0.0, 1.0, 1000)
     fine = main_effects(results_of(x=many, power_total_w=many), "power_total_w")[0]
-    assert_allclose(fine.share, 0.99, atol=1e-3)  # Tenths see all but 1/100 of a straight line's variance.
+    # Tenths see all but 1/100 of a straight line's variance.
+    assert_allclose(fine.share, 0.99, atol=1e-3)
 
 
 def test_a_small_sample_is_not_reported_as_an_effect():
@@ -425,7 +504,9 @@ def test_a_small_sample_is_not_reported_as_an_effect():
     assert found["y"] < 0.2
     words = {"message": None, "twist": "linear:-8", "caveats": None}
     results.columns.update({name: np.full(16, word, dtype=object) for name, word in words.items()})
-    assert "rough: 16 points of a sample; with fewer than 100, chance" in report(results, record(results))
+    assert "rough: 16 points of a sample; with fewer than 100, chance" in report(
+        results, record(results)
+    )
 
 
 def test_show_counts_the_caveats_of_points():
@@ -433,12 +514,17 @@ def test_show_counts_the_caveats_of_points():
     results = results_of(mu=[0.1, 0.2, 0.3, 0.4], power_total_w=[4.0, 1.0, 2.0, 3.0])
     caveats = ["stall", None, "", "controls, stall"]
     results.columns.update(
-        message=np.full(4, None), twist=np.full(4, "linear:-8"), caveats=np.array(caveats, dtype=object)
+        message=np.full(4, None),
+        twist=np.full(4, "linear:-8"),
+        caveats=np.array(caveats, dtype=object),
     )
     shown = record(results)
     assert list(shown["caveats"].items()) == [("stall", 2), ("controls", 1)]
     said = " ".join(report(results, shown).split())
-    assert "caveats of points: stall at 2, controls at 1; python -m rotor solve --row DIR:1 says more" in said
+    assert (
+        "caveats of points: stall at 2, controls at 1; python -m rotor solve --row DIR:1 says more"
+        in said
+    )
 
 
 def test_one_ctrl_c_received_twice_counts_once():
@@ -449,18 +535,26 @@ def test_one_ctrl_c_received_twice_counts_once():
 
 
 def test_hub_loads_and_frequencies_are_columns_of_blades_that_bend():
-    text = SMALL.replace("[models]", "[models]\nbending = true").replace("elements = 12\nazimuths = 24\n", "")
+    text = SMALL.replace("[models]", "[models]\nbending = true").replace(
+        "elements = 12\nazimuths = 24\n", ""
+    )
     study = parse_study(text)
     rows = evaluate_points(study, 0, study.count)
-    slow, fast = (next(row for row in rows if row["mu"] == mu and row["rate_deg"] == -8) for mu in (0.1, 0.3))
+    slow, fast = (
+        next(row for row in rows if row["mu"] == mu and row["rate_deg"] == -8) for mu in (0.1, 0.3)
+    )
     assert "index_percent" not in slow
     for row in (slow, fast):
-        alone = solve(make_design(twist="linear:-8", mu=row["mu"], inflow="pitt-peters", bending=True))
+        alone = solve(
+            make_design(twist="linear:-8", mu=row["mu"], inflow="pitt-peters", bending=True)
+        )
         assert row["caveats"] == ", ".join(caveat.name for caveat in alone.caveats)
     assert "no-hub-loads" in slow["caveats"]
     design = make_design(twist="linear:-8", mu=0.3, inflow="pitt-peters", bending=True)
     loads = hub_loads(solve(design))
-    assert_allclose((fast["index_percent"], fast["hub_fz_n"]), (loads.index, loads.amplitudes["fz"]), rtol=1e-4)
+    assert_allclose(
+        (fast["index_percent"], fast["hub_fz_n"]), (loads.index, loads.amplitudes["fz"]), rtol=1e-4
+    )
     assert 2.7 < slow["flap_2_per_rev"] < 2.9
     names = {column.name for column in columns_of(study)}
     assert {"index_percent", "hub_mx_nm", "torsion_1_per_rev"} <= names
@@ -478,7 +572,8 @@ SMALLER = {
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("name", "shorter"), [*SMALLER.items(), pytest.param("hover_cruise.toml", {}, marks=pytest.mark.nightly)]
+    ("name", "shorter"),
+    [*SMALLER.items(), pytest.param("hover_cruise.toml", {}, marks=pytest.mark.nightly)],
 )
 def test_shipped_studies_run_to_their_end(name: str, shorter: dict[str, str], tmp_path: Path):
     """Exit code 0: every point converged."""

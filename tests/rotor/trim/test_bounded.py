@@ -43,19 +43,30 @@ def anything(count: int) -> Iterator[dict[str, Any]]:
         flight = {
             "twist": f"linear:{chance.uniform(-30.0, 10.0):.6g}",
             "inflow": chance.choice(sorted(INFLOW_MODELS)),
-            "mu": chance.choice((0.0, 10.0 ** chance.uniform(-300.0, -1.0), chance.uniform(0.0, 0.75))),
+            "mu": chance.choice(
+                (0.0, 10.0 ** chance.uniform(-300.0, -1.0), chance.uniform(0.0, 0.75))
+            ),
             "bending": chance.random() < 0.2,
         }
         if chance.random() < 0.5:
-            flight |= {"mass_kg": chance.uniform(1.0, 15_000.0), "climb_m_s": chance.choice((0.0, -8.0, 8.0))}
+            flight |= {
+                "mass_kg": chance.uniform(1.0, 15_000.0),
+                "climb_m_s": chance.choice((0.0, -8.0, 8.0)),
+            }
         else:
-            loading = chance.choice((0.0, 10.0 ** chance.uniform(-300.0, -1.0), chance.uniform(0.0, 0.15)))
+            loading = chance.choice(
+                (0.0, 10.0 ** chance.uniform(-300.0, -1.0), chance.uniform(0.0, 0.15))
+            )
             stand = {"ct_over_sigma": loading, "shaft_tilt_deg": chance.uniform(-20.0, 20.0)}
             flight |= {"trim": "wind-tunnel", "stand": stand}
         yield flight
 
 
-SETS = {"without-thrust": without_thrust, "largest-grids": largest_grids, "anything": lambda: anything(60)}
+SETS = {
+    "without-thrust": without_thrust,
+    "largest-grids": largest_grids,
+    "anything": lambda: anything(60),
+}
 
 
 def work(name: str, count: int) -> None:
@@ -70,7 +81,15 @@ def work(name: str, count: int) -> None:
         except ValueError as error:
             said = str(error)
         times.append((time.process_time() - begun, str(arguments), shorten(said)))
-    print(json.dumps({"slowest": sorted(times, reverse=True)[:10], "megabytes": _largest(), "count": len(times)}))
+    print(
+        json.dumps(
+            {
+                "slowest": sorted(times, reverse=True)[:10],
+                "megabytes": _largest(),
+                "count": len(times),
+            }
+        )
+    )
 
 
 def _largest() -> float:
@@ -79,14 +98,19 @@ def _largest() -> float:
         import resource
 
         return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1e6
-    (kilobytes,) = re.findall(r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text(encoding="ascii"))
+    (kilobytes,) = re.findall(
+        r"VmHWM:\s+(\d+) kB", Path("/proc/self/status").read_text(encoding="ascii")
+    )
     return float(kilobytes) / 1e3
 
 
 @pytest.mark.slow
-@pytest.mark.skipif(sys.platform == "win32", reason="the size of a process is read as Unix tells it")
+@pytest.mark.skipif(
+    sys.platform == "win32", reason="the size of a process is read as Unix tells it"
+)
 @pytest.mark.parametrize(
-    ("name", "count"), [*((name, 0) for name in SETS), pytest.param("anything", 10_000, marks=pytest.mark.nightly)]
+    ("name", "count"),
+    [*((name, 0) for name in SETS), pytest.param("anything", 10_000, marks=pytest.mark.nightly)],
 )
 def test_every_design_has_an_answer_soon(name: str, count: int):
     command = [sys.executable, "-m", "tests.rotor.trim.test_bounded", name, str(count)]
@@ -106,7 +130,9 @@ def test_a_trim_found_by_continuation_is_not_sought_by_it_again(monkeypatch: pyt
         pytest.fail("sought again")
 
     monkeypatch.setattr("rotor.trim.solve.trim_along", sought)
-    light = make_design(twist="linear:-23.8683", mass_kg=811.99, inflow="drees", elements=16, azimuths=36)
+    light = make_design(
+        twist="linear:-23.8683", mass_kg=811.99, inflow="drees", elements=16, azimuths=36
+    )
     assert "collective" in solve(light.at(mu=0.43756926966961485, climb_m_s=-8.0)).message
 
 

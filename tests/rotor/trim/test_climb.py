@@ -47,7 +47,12 @@ def test_ideal_rotor_follows_momentum_theory(climb: float):
         blade = at.rotor.blade.root_cutout
         ct, total = at.weight_coefficient / (1.0 - blade**2), at.vertical_ratio
         slope = float(np.mean(lift_curve(build_problem(at))[0]))
-        tip = ideal_tip_pitch(ct, at.rotor.solidity, slope) - math.sqrt(0.5 * ct) + axial_inflow(ct, total) + total
+        tip = (
+            ideal_tip_pitch(ct, at.rotor.solidity, slope)
+            - math.sqrt(0.5 * ct)
+            + axial_inflow(ct, total)
+            + total
+        )
         found = solve(at.with_twist(IdealTwist(tip))).require()
         assert np.ptp(found.disk.inflow[:, 0]) < 0.03 * found.disk.inflow.mean()
         assert found.power.parasite == 0.0
@@ -55,7 +60,9 @@ def test_ideal_rotor_follows_momentum_theory(climb: float):
 
     at = design(0.0, climb)
     ratio = climb / (hover_velocity(at) / math.sqrt(1.0 - at.rotor.blade.root_cutout**2))
-    assert_allclose(power(climb) / power(0.0), 0.5 * ratio + math.hypot(0.5 * ratio, 1.0), rtol=1e-2)
+    assert_allclose(
+        power(climb) / power(0.0), 0.5 * ratio + math.hypot(0.5 * ratio, 1.0), rtol=1e-2
+    )
 
 
 @pytest.mark.parametrize("twist", ["linear:0", "linear:-12", "linear:-24", "ideal"])
@@ -67,7 +74,9 @@ def test_annuli_balance_momentum(twist: str, climb: float):
     induced, total = disk.induced[:, 0], disk.induced[:, 0] + climb / rotor.tip_speed
     assert_allclose(disk.u_p[:, 0], total, rtol=1e-14)
     factor, _ = loss_factor(disk.r, total, rotor.blades, rotor.blade.root_cutout)
-    assert_allclose(4.0 * factor * induced * np.abs(total) * disk.r, disk.dct[:, 0], rtol=1e-9, atol=1e-12)
+    assert_allclose(
+        4.0 * factor * induced * np.abs(total) * disk.r, disk.dct[:, 0], rtol=1e-9, atol=1e-12
+    )
 
 
 @pytest.mark.parametrize("climb", [-4.0, 0.0, 6.0])
@@ -110,7 +119,9 @@ def on_stand(stand: Mapping[str, Any], mu: float, trim: str) -> Design:
 
 
 @pytest.mark.parametrize("climb", [-9.0, 7.0])
-def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float, same_course: WakeCourse):
+def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(
+    climb: float, same_course: WakeCourse
+):
     """Only the relative wind counts: the same thrust at the same angle to it takes the same controls and torque.
 
     With the wake on the same course.
@@ -119,9 +130,16 @@ def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float, 
     at, tilt = flown.design, flown.controls.shaft_tilt
     along = 0.2 * math.cos(tilt) - at.vertical_ratio * math.sin(tilt)
     through = 0.2 * math.sin(tilt) + at.vertical_ratio * math.cos(tilt)
-    stand = {"shaft_tilt_deg": math.degrees(math.atan2(through, along)), "ct_over_sigma": flown.ct_over_sigma}
-    found = solve(on_stand(stand, math.hypot(along, through), "wind-tunnel"), flown, TIGHT).require()
-    from_above = on_stand({**stand, "shaft_tilt_deg": math.degrees(tilt)}, 0.2, "wind-tunnel").at(climb_m_s=climb)
+    stand = {
+        "shaft_tilt_deg": math.degrees(math.atan2(through, along)),
+        "ct_over_sigma": flown.ct_over_sigma,
+    }
+    found = solve(
+        on_stand(stand, math.hypot(along, through), "wind-tunnel"), flown, TIGHT
+    ).require()
+    from_above = on_stand({**stand, "shaft_tilt_deg": math.degrees(tilt)}, 0.2, "wind-tunnel").at(
+        climb_m_s=climb
+    )
     tunnel = solve(from_above, flown, TIGHT).require().power
     for part in ("shaft", "main_rotor", "induced", "profile"):
         assert_allclose(getattr(tunnel, part), getattr(flown.power, part), rtol=1e-6)
@@ -133,7 +151,9 @@ def test_a_climb_is_a_wind_tunnel_at_the_angle_of_the_flight_path(climb: float, 
 def test_a_propeller_on_a_stand():
     """At 60 m/s along the shaft: power is T V_c, induced and profile power, and efficiency less than V_c/(V_c + v)."""
     stand = {"ct_over_sigma": 0.05, "flapping": "trimmed"}
-    found = solve(make_design(rotor="xv15", hover=True, climb_m_s=60.0, trim="wind-tunnel", stand=stand)).require()
+    found = solve(
+        make_design(rotor="xv15", hover=True, climb_m_s=60.0, trim="wind-tunnel", stand=stand)
+    ).require()
     power, thrust = found.power, found.ct * found.design.thrust_unit
     assert_allclose(power.climb, 60.0 * thrust, rtol=1e-9)
     assert_allclose(power.shaft, power.climb + power.induced + power.profile, rtol=1e-9)
@@ -159,7 +179,9 @@ def test_autorotation():
     flow = flown.disk.inflow.mean() - flown.disk.induced.mean()
     along = math.hypot(0.17, flown.design.vertical_ratio)
     free = on_stand({"ct_over_sigma": flown.ct_over_sigma}, along, "free-rotor")
-    assert_allclose(math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=2e-3)
+    assert_allclose(
+        math.sin(solve(free, None, TIGHT).require().controls.shaft_tilt), flow / along, rtol=2e-3
+    )
     beyond = solve(design(0.17, rate - 1.0)).require()
     assert beyond.power.main_rotor < 0.0
     (caveat,) = [caveat for caveat in beyond.caveats if caveat.name == "beyond-autorotation"]
@@ -209,7 +231,9 @@ def symmetric(tmp_path_factory: pytest.TempPathFactory) -> Callable[[float, floa
 
     def trim(collective: float, climb: float) -> Solution:
         stand = {"collective_deg": collective, "flapping": "free"}
-        return solve(make_design(rotor=rotor, mu=0.0, trim="controls", stand=stand, climb_m_s=climb))
+        return solve(
+            make_design(rotor=rotor, mu=0.0, trim="controls", stand=stand, climb_m_s=climb)
+        )
 
     return trim
 
@@ -229,15 +253,24 @@ class TestAxialFlow:
                 assert not windmill or inflow <= 0.5 * wind * (1.0 + 1e-9)
 
     @pytest.mark.parametrize("climb", [1.0, 10.0])
-    def test_upside_down_is_the_same(self, symmetric: Callable[[float, float], Solution], climb: float):
+    def test_upside_down_is_the_same(
+        self, symmetric: Callable[[float, float], Solution], climb: float
+    ):
         """Climb, windmill and slow descent, or both refused: thrust and wind change their signs, power does not."""
         thrusts = list[float]()
         for collective in (8.0, 5.0, 2.0, 0.0, -1.0, -2.0, -6.0):
             here, there = symmetric(collective, climb), symmetric(-collective, -climb)
             assert here.converged == there.converged
-            assert here.converged or "wake is in the vortex ring state" in " ".join(here.message.split())
+            assert here.converged or "wake is in the vortex ring state" in " ".join(
+                here.message.split()
+            )
             if here.converged:
-                assert_allclose((there.ct, there.power.total), (-here.ct, here.power.total), rtol=2e-3, atol=1e-6)
+                assert_allclose(
+                    (there.ct, there.power.total),
+                    (-here.ct, here.power.total),
+                    rtol=2e-3,
+                    atol=1e-6,
+                )
                 thrusts.append(here.ct)
         assert np.all(np.diff(thrusts) < 0.0)
         assert len(thrusts) == {1.0: 5, 10.0: 3}[climb]

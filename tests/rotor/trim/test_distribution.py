@@ -52,10 +52,20 @@ def by_coefficients(solution: Solution) -> tuple[Distribution, np.ndarray, np.nd
     """½ρ c (U C_l U_T − V C_d U_P) of a lifting line, which has no loss factor, and ½ρ U² c."""
     disk, design, found = solution.disk, solution.design, distribution(solution)
     head = design.rotor
-    chord = build_problem(design).disk.half_solidity[:, None] * 2.0 * math.pi * head.radius / head.blades
+    chord = (
+        build_problem(design).disk.half_solidity[:, None]
+        * 2.0
+        * math.pi
+        * head.radius
+        / head.blades
+    )
     speed = np.hypot(disk.u_t, disk.u_p)
     gain = 0.5 * design.condition.density * head.tip_speed**2 * chord
-    return found, gain * (speed * found.cl * disk.u_t - np.hypot(speed, disk.u_r) * disk.cd * disk.u_p), gain * speed**2
+    return (
+        found,
+        gain * (speed * found.cl * disk.u_t - np.hypot(speed, disk.u_r) * disk.cd * disk.u_p),
+        gain * speed**2,
+    )
 
 
 def test_lift_is_that_of_the_coefficients(steady: Solution):
@@ -94,8 +104,12 @@ def blended(solution: Solution, coefficient: Callable[..., np.ndarray]) -> np.nd
 def test_coefficients_are_those_of_the_section_data(steady: Solution):
     """The look-up of C_m gives the solution's own C_l, so it is at the right angle and Mach number."""
     found = distribution(steady)
-    assert_allclose(found.cl, blended(steady, lambda table, alpha, mach: table(alpha, mach).cl), atol=1e-9)
-    assert_allclose(found.cm, blended(steady, lambda table, alpha, mach: table.moment(alpha, mach)), atol=1e-12)
+    assert_allclose(
+        found.cl, blended(steady, lambda table, alpha, mach: table(alpha, mach).cl), atol=1e-9
+    )
+    assert_allclose(
+        found.cm, blended(steady, lambda table, alpha, mach: table.moment(alpha, mach)), atol=1e-12
+    )
     assert -0.1 < found.cm[found.r > 0.5].mean() < 0.0
 
 
@@ -111,7 +125,10 @@ def test_models_that_are_switched_off(steady: Solution):
     """Without reverse flow there is no load, hence no moment, inside its circle; one Mach number for all sections."""
     design = steady.design
     solution = rotor.solve(with_models(design, reverse_flow=False, compressibility=False)).require()
-    made, inside = distribution(solution), solution.disk.r[:, None] + 0.3 * np.sin(solution.disk.psi) < 0.0
+    made, inside = (
+        distribution(solution),
+        solution.disk.r[:, None] + 0.3 * np.sin(solution.disk.psi) < 0.0,
+    )
     for field in (made.lift, made.cl, made.cm):
         assert (field[inside] == 0.0).all()
     table = design.rotor.blade.installed("sc1095").table

@@ -25,7 +25,12 @@ from rotor.trim.power_changes import PARTS, by_part, power_changes
 from tests.patched import Patch
 from tests.uncertain import SIZES, either_side, patch_sections
 
-CONDITIONS = {"µ 0.35": {"mu": 0.35}, "µ 0.3": {"mu": 0.3}, "µ 0.2": {"mu": 0.2}, "hover": {"hover": True}}
+CONDITIONS = {
+    "µ 0.35": {"mu": 0.35},
+    "µ 0.3": {"mu": 0.3},
+    "µ 0.2": {"mu": 0.2},
+    "hover": {"hover": True},
+}
 TWISTS = ("linear:-12", "builtin")
 
 
@@ -63,7 +68,9 @@ def test_the_first_order_is_what_new_trims_give(name: str, condition: str, patch
     assert found.change_band is not None
     assert row.change is not None
     exact = exactly(condition, name, patch)
-    print(f"{name} {condition}: {exact[0]:.0f} {row.power:.0f}, {exact[0] - exact[1]:.0f} {row.change:.0f} W")
+    print(
+        f"{name} {condition}: {exact[0]:.0f} {row.power:.0f}, {exact[0] - exact[1]:.0f} {row.change:.0f} W"
+    )
     assert row.power == pytest.approx(exact[0], abs=0.15 * found.band)
     assert row.change == pytest.approx(exact[0] - exact[1], abs=0.15 * found.change_band)
 
@@ -90,7 +97,9 @@ def test_the_drag_area_costs_its_drag_times_speed_and_a_little_more():
     """∂P/∂f is ½ρV³ at the shaft, and the rotor and the tail rotor that give that force take more."""
     here, _ = at_speed()
     design = here.design
-    by_hand = 0.2 * design.fuselage.drag_area * 0.5 * design.condition.density * design.flight_speed**3
+    by_hand = (
+        0.2 * design.fuselage.drag_area * 0.5 * design.condition.density * design.flight_speed**3
+    )
     assert 1.0 < power_changes(Analysis(here).adjoint)["drag_area_percent"].sum() / by_hand < 1.25
 
 
@@ -100,8 +109,13 @@ def test_the_errors_of_the_model_are_shares_of_induced_and_profile_power(conditi
     here, there = (rotor.solve(design).require() for design in designs(condition))
     slope = (here.power.tail - there.power.tail) / (here.power.main_rotor - there.power.main_rotor)
     found = {row.name: row for row in doubt(here, there).rows}
-    for name, power in (("induced_power_percent", here.power.induced), ("profile_power_percent", here.power.profile)):
-        assert found[name].power == pytest.approx(0.01 * SIZES[name] * power * (1.0 + slope), rel=2e-3)
+    for name, power in (
+        ("induced_power_percent", here.power.induced),
+        ("profile_power_percent", here.power.profile),
+    ):
+        assert found[name].power == pytest.approx(
+            0.01 * SIZES[name] * power * (1.0 + slope), rel=2e-3
+        )
 
 
 def test_of_a_difference_two_inflow_models_are_compared():
@@ -111,13 +125,18 @@ def test_of_a_difference_two_inflow_models_are_compared():
         rotor.solve(replace(one.design, models=replace(one.design.models, inflow="pitt-peters")))
         for one in (here, built)
     ]
-    half = 0.5 * (here.power.total - built.power.total - others[0].power.total + others[1].power.total)
+    half = 0.5 * (
+        here.power.total - built.power.total - others[0].power.total + others[1].power.total
+    )
     rows = {row.name: (row.power, row.change) for row in doubt(here, built).rows}
     assert rows["inflow_model_percent"] == (0.0, pytest.approx(half, rel=1e-3))
     assert "hover_wake_percent" not in rows
     hover, there = (rotor.solve(rotor.make_design(twist=twist, hover=True)) for twist in TWISTS)
     rows = {row.name: (row.power, row.change) for row in doubt(hover, there).rows}
-    assert rows["hover_wake_percent"] == (0.0, pytest.approx(0.25 * (hover.power.induced - there.power.induced)))
+    assert rows["hover_wake_percent"] == (
+        0.0,
+        pytest.approx(0.25 * (hover.power.induced - there.power.induced)),
+    )
     assert "inflow_model_percent" not in rows
     slow = doubt(*(rotor.solve(rotor.make_design(twist=twist, mu=0.002)) for twist in TWISTS))
     (near,) = (row.change for row in slow.rows if row.name == "hover_wake_percent")
@@ -134,7 +153,9 @@ def test_the_band_of_slow_flight_is_that_of_hover():
 def test_steady_flow_stands_beside_unsteady_flow_alone(off: str, beside: bool):
     models = other_models(rotor.make_design(mu=0.2, off=off))
     assert ("unsteady flow off" in models) == beside
-    assert not any(design.models.unsteady for name, design in models.items() if name.startswith("unsteady"))
+    assert not any(
+        design.models.unsteady for name, design in models.items() if name.startswith("unsteady")
+    )
 
 
 def test_with_bending_the_rows_are_those_of_new_trims(patch: Patch):
@@ -148,17 +169,27 @@ def test_with_bending_the_rows_are_those_of_new_trims(patch: Patch):
 
 
 def test_what_a_design_does_not_have_is_no_row():
-    thesis = power_changes(Analysis(rotor.solve(rotor.make_design(mu=0.2, preset="thesis")).require()).adjoint)
-    assert not {"torsional_stiffness_percent", "section_moment", "wake_transport_percent"} & set(thesis)
-    stand = rotor.make_design(rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06})
+    thesis = power_changes(
+        Analysis(rotor.solve(rotor.make_design(mu=0.2, preset="thesis")).require()).adjoint
+    )
+    assert not {"torsional_stiffness_percent", "section_moment", "wake_transport_percent"} & set(
+        thesis
+    )
+    stand = rotor.make_design(
+        rotor="pca2", mu=0.2, trim="wind-tunnel", stand={"ct_over_sigma": 0.06}
+    )
     found = Analysis(rotor.solve(stand)).power_changes
     assert set(found) <= set(thesis) | {"wake_transport_percent", "wake_path_percent"}
     assert "drag_area_percent" not in found
 
 
-@pytest.mark.parametrize("options", [{"hover": True}, {"mu": 0.2, "inflow": "drees", "loss_on": "inflow"}])
+@pytest.mark.parametrize(
+    "options", [{"hover": True}, {"mu": 0.2, "inflow": "drees", "loss_on": "inflow"}]
+)
 def test_tip_loss_is_as_in_new_trims(options: dict[str, Any], patch: Patch):
-    here, there = (rotor.solve(rotor.make_design(twist=twist, **options)).require() for twist in TWISTS)
+    here, there = (
+        rotor.solve(rotor.make_design(twist=twist, **options)).require() for twist in TWISTS
+    )
     found = doubt(here, there)
     row = next(row for row in found.rows if row.name == "tip_loss_percent")
     ends: list[list[float]] = []
@@ -174,7 +205,9 @@ def test_tip_loss_is_as_in_new_trims(options: dict[str, Any], patch: Patch):
     exact = 0.5 * (np.array(ends[0]) - np.array(ends[1]))
     assert found.change_band is not None
     assert row.change is not None
-    print(f"tip_loss_percent: {exact[0]:.0f} {row.power:.0f}, {exact[0] - exact[1]:.0f} {row.change:.0f} W")
+    print(
+        f"tip_loss_percent: {exact[0]:.0f} {row.power:.0f}, {exact[0] - exact[1]:.0f} {row.change:.0f} W"
+    )
     assert exact[0] > 0.0
     assert row.power == pytest.approx(exact[0], abs=0.15 * found.band)
     assert row.change == pytest.approx(exact[0] - exact[1], abs=0.15 * found.change_band)
@@ -186,7 +219,9 @@ def test_the_path_of_the_wake_is_as_in_new_trims(mu: float, patch: Patch):
     here, there = (rotor.solve(rotor.make_design(twist=twist, mu=mu)).require() for twist in TWISTS)
     row = next(row for row in doubt(here, there).rows if row.name == "wake_path_percent")
     patch("rotor.aero.problem.WakeCourse", partial(WakeCourse, beddoes=1.0))
-    changes = [rotor.solve(one.design).require().power.total - one.power.total for one in (here, there)]
+    changes = [
+        rotor.solve(one.design).require().power.total - one.power.total for one in (here, there)
+    ]
     assert (row.power, row.change) == pytest.approx((changes[0], changes[0] - changes[1]), abs=1.5)
     assert abs(changes[0]) > 500.0
     linear = rotor.solve(rotor.make_design(mu=mu, inflow="pitt-peters")).require()
@@ -194,7 +229,9 @@ def test_the_path_of_the_wake_is_as_in_new_trims(mu: float, patch: Patch):
 
 
 @pytest.mark.parametrize("bending", [False, True])
-def test_a_band_takes_few_evaluations_and_no_factors(bending: bool, monkeypatch: pytest.MonkeyPatch):
+def test_a_band_takes_few_evaluations_and_no_factors(
+    bending: bool, monkeypatch: pytest.MonkeyPatch
+):
     """One for each input of the rotor, fewer than a warm trim for the path of the wake, the factors of the gradient.
 
     The multipliers that tell parts of power apart take fewer products than those of the gradient, 3 to 5 where
@@ -242,19 +279,26 @@ def test_a_path_of_the_wake_without_a_trim_stays_in_the_band(patch: Patch):
 def test_the_band_of_a_free_rotor_is_that_of_its_drag():
     """Its drag times speed is induced and profile power: no power comes from the shaft."""
     free, driven = (
-        rotor.solve(rotor.make_design(rotor="pca2", mu=0.2, trim=trim, stand={"ct_over_sigma": 0.07})).require()
+        rotor.solve(
+            rotor.make_design(rotor="pca2", mu=0.2, trim=trim, stand={"ct_over_sigma": 0.07})
+        ).require()
         for trim in ("free-rotor", "wind-tunnel")
     )
     found, power = doubt(free), free.power
     assert found.power == pytest.approx(free.lift_and_drag[1] * free.design.airspeed, rel=1e-3)
-    shares = (0.01 * SIZES[f"{part}_power_percent"] * getattr(power, part) for part in ("induced", "profile"))
+    shares = (
+        0.01 * SIZES[f"{part}_power_percent"] * getattr(power, part)
+        for part in ("induced", "profile")
+    )
     assert found.band == pytest.approx(math.hypot(*shares))
     assert found.sentence.startswith("Drag times speed ")
     with pytest.raises(ValueError, match="no saving is known"):
         doubt(driven, free)
 
 
-@pytest.mark.parametrize(("change", "band", "word"), [(-2.0, 1.0, "sure"), (1.5, 1.0, "likely"), (0.3, 1.0, "unclear")])
+@pytest.mark.parametrize(
+    ("change", "band", "word"), [(-2.0, 1.0, "sure"), (1.5, 1.0, "likely"), (0.3, 1.0, "unclear")]
+)
 def test_the_words_follow_the_ratio(change: float, band: float, word: str):
     assert sureness(change, band).startswith(word)
 
@@ -278,8 +322,12 @@ def test_the_sentence_has_no_digit_that_the_band_does_not_allow():
     assert found.sentence == "Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure."
     nothing = Doubt(901.4e3, (replace(row, change=2.7e3),), against=902.3e3)
     assert nothing.sentence == "Power 901 ± 52 kW. It saves 0.1 ± 0.3 %: unclear."
-    assert Doubt(901.4e3, (replace(row, change=-1e3),), 880e3).sentence.endswith("It costs 2.43 ± 0.11 %: sure.")
-    assert Doubt(901.4e3, (replace(row, change=0.03),), 880e3).sentence.endswith("It costs 2.43 ± 0.01 %: sure.")
+    assert Doubt(901.4e3, (replace(row, change=-1e3),), 880e3).sentence.endswith(
+        "It costs 2.43 ± 0.11 %: sure."
+    )
+    assert Doubt(901.4e3, (replace(row, change=0.03),), 880e3).sentence.endswith(
+        "It costs 2.43 ± 0.01 %: sure."
+    )
     same = Doubt(901.4e3, (replace(row, change=0.03),), 901.4e3 + 0.01)
     assert same.sureness is None
     assert same.sentence == "Power 901 ± 52 kW. It neither saves nor costs."
@@ -298,7 +346,9 @@ def test_a_rotor_file_states_its_own(tmp_path_factory: pytest.TempPathFactory):
         rotor.load_rotor(path)
 
 
-def test_the_command_says_it_and_its_json_has_the_rows(printed: Callable[..., str], answer: Callable[..., Any]):
+def test_the_command_says_it_and_its_json_has_the_rows(
+    printed: Callable[..., str], answer: Callable[..., Any]
+):
     words = ("solve", "--mu", "0.3", "--twist", "linear:-12", "--doubt")
     assert "Against the blade as built it saves" in printed(*words)
     found = answer(*words)["doubt"]
@@ -332,7 +382,9 @@ def test_the_band_of_a_part_of_power_is_that_of_new_trims(condition: str):
     assert row.changes == pytest.approx(exact, abs=0.03 * float(np.abs(exact).max()))
     assert sum(row.changes) == pytest.approx(row.change)
     for k, part in enumerate(PARTS):
-        assert found.part_bands[part] == pytest.approx(math.hypot(*(each.changes[k] for each in found.rows)))
+        assert found.part_bands[part] == pytest.approx(
+            math.hypot(*(each.changes[k] for each in found.rows))
+        )
     main = math.hypot(*(sum(each.changes[: PARTS.index("tail")]) for each in found.rows))
     assert found.part_bands["main_rotor"] == pytest.approx(main)
     assert doubt(here).part_bands == {}

@@ -26,7 +26,9 @@ def steady(design: Design) -> Design:
     return replace(design, models=replace(design.models, dynamic_stall=False))
 
 
-def test_what_the_first_derivatives_leave_out_does_not_move_the_trim(monkeypatch: pytest.MonkeyPatch):
+def test_what_the_first_derivatives_leave_out_does_not_move_the_trim(
+    monkeypatch: pytest.MonkeyPatch,
+):
     problem = trim_problem(make_design(**HEAVY))
     found = newton(problem, first_guess(problem))
     monkeypatch.setattr("rotor.engine.newton._MOST_FORGETFUL", 0)
@@ -73,13 +75,19 @@ def test_a_turn_is_met_that_steady_sections_refuse():
     assert solution_record(found)["dynamic_stall"] is True
     still = solve(steady(make_design(**TURN)))
     assert not still.converged
-    assert "% of the lift's moment about the hub comes from stalled sections; beyond 25 % no rotor" in still.message
+    assert (
+        "% of the lift's moment about the hub comes from stalled sections; beyond 25 % no rotor"
+        in still.message
+    )
     again = pickle.loads(pickle.dumps(found))
-    assert power_gradient(again).by_element == pytest.approx(power_gradient(found).by_element, rel=1e-6)
+    assert power_gradient(again).by_element == pytest.approx(
+        power_gradient(found).by_element, rel=1e-6
+    )
 
 
 @pytest.mark.parametrize(
-    "given", [{"mu": 0.35, "preset": "thesis"}, {"hover": True}, {"mu": 0.2, "off": "dynamic-stall"}]
+    "given",
+    [{"mu": 0.35, "preset": "thesis"}, {"hover": True}, {"mu": 0.2, "off": "dynamic-stall"}],
 )
 def test_elsewhere_sections_stay_steady(given: dict[str, Any]):
     solution = solve(make_design(**given)).require()
@@ -96,7 +104,9 @@ def test_page_search_and_sweep_have_one_power_for_one_design():
         assert power == pytest.approx(solve(one).require().power.total, rel=1e-7)
         assert solve(one, solve(design)).require().power.total == pytest.approx(power, rel=1e-7)
         assert sweep(one, mu=[0.15, 0.2])[1].power.total == pytest.approx(power, rel=1e-7)
-    beside = [solve(design.with_twist(f"linear:{rate}")).require().power.total for rate in range(-20, -9)]
+    beside = [
+        solve(design.with_twist(f"linear:{rate}")).require().power.total for rate in range(-20, -9)
+    ]
     assert best.power < min(beside)
 
 
@@ -104,7 +114,9 @@ def test_the_answer_does_not_depend_on_the_start():
     light, heavy = make_design(mu=0.35, mass_kg=8500.0), make_design(mu=0.35, mass_kg=9500.0)
     first = solve(heavy).require()
     for design, start in ((light, first), (heavy, solve(light))):
-        assert solve(design, start).require().power.total == pytest.approx(solve(design).power.total, rel=1e-6)
+        assert solve(design, start).require().power.total == pytest.approx(
+            solve(design).power.total, rel=1e-6
+        )
 
 
 def test_beyond_all_measured_stall_there_is_no_power():
@@ -125,9 +137,10 @@ def test_beyond_all_measured_stall_there_is_no_power():
 @pytest.mark.parametrize("name", ["rotor_speed_percent", "mass_kg"])
 def test_no_island_of_trims_lies_behind_a_refusal(name: str):
     """From easy to hard: once refused, always refused. Beyond the largest lift the weight balances once more."""
-    values = {"rotor_speed_percent": (84, 80, 77, 76, 74, 73), "mass_kg": (12_500, 13_000, 13_500, 14_000, 15_000)}[
-        name
-    ]
+    values = {
+        "rotor_speed_percent": (84, 80, 77, 76, 74, 73),
+        "mass_kg": (12_500, 13_000, 13_500, 14_000, 15_000),
+    }[name]
     designs = [make_design(mu=0.3, **cast(Any, {name: float(value)})) for value in values]
     trimmed = [solve(design, options=SolverOptions(remedy=False)).converged for design in designs]
     assert trimmed == sorted(trimmed, reverse=True)
@@ -147,7 +160,10 @@ def test_an_inflow_that_cannot_have_it_says_so():
 def test_a_measured_state_with_much_stall_near_the_hub_trims(mu: float):
     """An XV-15 tilted 15° aft at C_T/σ 0.075 was measured (Betzina 2002) with a quarter of its thrust stalled."""
     aft = make_design(
-        rotor="xv15", mu=mu, trim="wind-tunnel", stand=Stand(ct_over_sigma=0.075, shaft_tilt=math.radians(-15.0))
+        rotor="xv15",
+        mu=mu,
+        trim="wind-tunnel",
+        stand=Stand(ct_over_sigma=0.075, shaft_tilt=math.radians(-15.0)),
     )
     found = solve(aft).require()
     assert found.stalled_moment < MOST_STALLED < found.stalled_thrust

@@ -26,7 +26,9 @@ from tests.solved import assert_same_trim
 TIGHT = SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-10, torsion_tolerance=1e-12)
 
 
-def design(mu: float, *, inflow: str | None = None, small: bool = False, on: bool = True, **changes: object) -> Design:
+def design(
+    mu: float, *, inflow: str | None = None, small: bool = False, on: bool = True, **changes: object
+) -> Design:
     made = make_design(mu=mu, inflow=inflow) if inflow else make_design(mu=mu)
     grid = {"elements": 16, "azimuths": 48} if small else {}
     return replace(made, models=replace(made.models, elastic_twist=on, **grid, **changes))
@@ -47,7 +49,9 @@ def with_structure(made: Design, **changes: object) -> Design:
     return replace(made, rotor=replace(made.rotor, blade=replace(blade, structure=structure)))
 
 
-@pytest.mark.parametrize(("mu", "unsteady", "near"), [(0.0, True, 1e-8), (0.25, False, 1e-8), (0.25, True, 3e-5)])
+@pytest.mark.parametrize(
+    ("mu", "unsteady", "near"), [(0.0, True, 1e-8), (0.25, False, 1e-8), (0.25, True, 3e-5)]
+)
 def test_a_stiff_blade_is_the_rigid_one(mu: float, unsteady: bool, near: float):
     """GJ and control stiffness × 10⁸: the rigid answer, and to rounding with the effect off.
 
@@ -77,11 +81,15 @@ def test_energy(inflow: str):
     What pitch links and plies put into the blades is what the air takes, −Σ dC_M θ': all else stores energy.
     """
     made = flapping(design(0.23, inflow=inflow, small=True))
-    rigid = solve(replace(made, models=replace(made.models, elastic_twist=False)), options=TIGHT).require()
+    rigid = solve(
+        replace(made, models=replace(made.models, elastic_twist=False)), options=TIGHT
+    ).require()
     assert_allclose(rigid.power.shaft, rigid.power.main_rotor, rtol=1e-9)
     solution = solve(made, options=TIGHT).require()
     problem, point = Analysis(solution).linear.problem, Analysis(solution).linear.point
-    air = point.forces[M] + 0.5 * problem.torsion.inertia[:, None] * np.sin(2.0 * point.channels[TH])
+    air = point.forces[M] + 0.5 * problem.torsion.inertia[:, None] * np.sin(
+        2.0 * point.channels[TH]
+    )
     taken = -problem.disk.dr @ (air * point.channels[RATE]).mean(axis=1)
     assert abs(taken) * made.power_unit > 400.0
     assert_allclose(solution.elastic.control_power, taken * made.power_unit, rtol=1e-6)
@@ -102,7 +110,9 @@ def test_static_twist_in_hover_by_integration():
         inner, outer, blend = blade.section_at(float(station))
         for name, share in ((inner, 1.0 - blend), (outer, blend)):
             section = blade.installed(name)
-            moment = section.table.moment(disk.alpha[i, 0] - section.incidence_offset, disk.mach[i, 0])
+            moment = section.table.moment(
+                disk.alpha[i, 0] - section.incidence_offset, disk.mach[i, 0]
+            )
             assert moment is not None
             coefficient[i] += share * float(moment)
             chord[i] += share * section.chord_ratio * float(blade.chord(station))
@@ -113,7 +123,9 @@ def test_static_twist_in_hover_by_integration():
 
     r = np.linspace(structure.clamp, rotor.radius, 4000)
     pull = structure.centrifugal_force(r, speed) * structure.tension_gyration
-    load = np.where(r < made.rotor.blade.root_cutout * rotor.radius, 0.0, np.interp(r, metres, air + propeller))
+    load = np.where(
+        r < made.rotor.blade.root_cutout * rotor.radius, 0.0, np.interp(r, metres, air + propeller)
+    )
     twisted = np.where((r < metres[0]) | (r > metres[-1]), 0.0, np.interp(r, metres, built))
     outboard = np.flip(cumulative_trapezoid(np.flip(load), -np.flip(r), initial=0))
     slope = (outboard - pull * twisted) / (structure.at(r, structure.torsional_stiffness) + pull)
@@ -127,7 +139,9 @@ def test_static_twist_in_hover_by_integration():
 @pytest.mark.slow
 def test_harmonic_balance_against_a_time_march():
     """q'' + ν²q = loads at the instant's own φ and φ', by Runge–Kutta, controls and inflow as trimmed."""
-    made = design(0.3, inflow="pitt-peters", radial_friction=False, unsteady=False, dynamic_stall=False)
+    made = design(
+        0.3, inflow="pitt-peters", radial_friction=False, unsteady=False, dynamic_stall=False
+    )
     problem = build_problem(made)
     result = newton(problem, first_guess(problem))
     assert result.converged
@@ -149,11 +163,15 @@ def test_harmonic_balance_against_a_time_march():
         channels[UP] += wake.mu_z + wake.mu_x * state.coning * cos
         channels[UR] = wake.mu_x * cos
         along = section(channels, data, False, False)[0][M, :, 0] + torsion.inertia * cyclic
-        load = torsion.modal(along + torsion.tip_mass * state.coning) + torsion.coupling @ q - tension
+        load = (
+            torsion.modal(along + torsion.tip_mass * state.coning) + torsion.coupling @ q - tension
+        )
         return torsion.frequency**2 * (torsion.gain * load - q)
 
     waves = wave_grid(torsion.functions, len(disk.psi)).at
-    rates = np.array([factor * waves[wave] for wave, factor in map(rate_of, range(torsion.functions))])
+    rates = np.array(
+        [factor * waves[wave] for wave, factor in map(rate_of, range(torsion.functions))]
+    )
     start = elements.torsion.coordinates @ waves[:, 0], elements.torsion.coordinates @ rates[:, 0]
     turns = 10
     span = (0.0, 2.0 * math.pi * turns)
@@ -168,7 +186,8 @@ def test_harmonic_balance_against_a_time_march():
     )
     tip = marched.y[:modes].sum(axis=0)
     trimmed = (elements.torsion.coordinates @ waves[:, ::4]).sum(axis=0)
-    assert_allclose(tip, trimmed, atol=math.radians(0.01))  # Harmonics above the eighth are the difference.
+    # Harmonics above the eighth are the difference.
+    assert_allclose(tip, trimmed, atol=math.radians(0.01))
 
 
 def test_nose_down_in_the_second_quadrant_at_high_speed():
@@ -213,7 +232,9 @@ def test_tension_unwinds_a_blade_and_its_tip_mass_lifts_the_nose():
     r = np.linspace(made.rotor.blade.root_cutout * made.rotor.radius, made.rotor.radius, 2000)
     pull = structure.centrifugal_force(r, made.rotor.angular_speed) * structure.tension_gyration
     twist = made.twist(r / made.rotor.radius)
-    by_hand = -np.trapezoid(pull / structure.at(r, structure.torsional_stiffness) * np.gradient(twist, r), r)
+    by_hand = -np.trapezoid(
+        pull / structure.at(r, structure.torsional_stiffness) * np.gradient(twist, r), r
+    )
     assert by_hand > 0.0
     assert_allclose(change, by_hand, rtol=0.35)  # The propeller moment and the air answer to it.
 

@@ -55,16 +55,27 @@ class RigidLag(rotor.Freedom):
                 for wave, share in times_wave(k, rate):
                     if wave < len(LAG):
                         s.term(lag[wave], -2.0 * share * factor, z[other], z[FLAP[h]])
-                        s.term(flap[wave], 2.0 * share * factor, z[other], z[name], number=n["lag inertia"])
+                        s.term(
+                            flap[wave],
+                            2.0 * share * factor,
+                            z[other],
+                            z[name],
+                            number=n["lag inertia"],
+                        )
 
     def power(self, s: Structure) -> list[Addend]:
-        return [(0.5, s.states[name], s.states[name], 0, s.numbers["lag damper"]) for name in LAG[1:]]
+        return [
+            (0.5, s.states[name], s.states[name], 0, s.numbers["lag damper"]) for name in LAG[1:]
+        ]
 
 
 def flapping(inflow: str, **given: Any) -> rotor.Design:
     """At µ = 0.25 with flapping of some degrees, without which there are no Coriolis forces."""
     design = rotor.make_design(mu=0.25, inflow=inflow, **given)
-    return replace(design, condition=replace(design.condition, flap_1c=math.radians(-4.0), flap_1s=math.radians(2.0)))
+    return replace(
+        design,
+        condition=replace(design.condition, flap_1c=math.radians(-4.0), flap_1s=math.radians(2.0)),
+    )
 
 
 def lagging(design: rotor.Design, damping: float = 0.3) -> rotor.Solution:
@@ -89,7 +100,9 @@ def test_steady_lag_by_hand() -> None:
     solution = lagging(flapping("pitt-peters", off="elastic-twist", azimuths=48))
     design, disk, blade = solution.design, solution.disk, solution.design.rotor.blade
     radius, hinge = design.rotor.radius, blade.flap_hinge
-    about_hinge = float(((disk.r - hinge) * disk.dr) @ disk.dcq.mean(axis=1)) * design.thrust_unit * radius
+    about_hinge = (
+        float(((disk.r - hinge) * disk.dr) @ disk.dcq.mean(axis=1)) * design.thrust_unit * radius
+    )
     centrifugal = blade.flap_static_moment * design.rotor.angular_speed**2
     expected = about_hinge / design.rotor.blades / (centrifugal * hinge * radius)
     assert_allclose(solution.freedom_states["lag_0"], expected, rtol=1e-8)
@@ -103,8 +116,13 @@ def test_the_first_harmonic_is_that_of_an_oscillator() -> None:
     psi, c, states = problem.disk.psi, solution.controls, solution.freedom_states
     beta = c.coning + c.flap_1c * np.cos(psi) + c.flap_1s * np.sin(psi)
     rate = -c.flap_1c * np.sin(psi) + c.flap_1s * np.cos(psi)
-    driving = problem.flap.load_gain * (problem.arm * problem.disk.dr @ point.forces[FX]) - 2.0 * beta * rate
-    amplitude = 2.0 * np.mean(driving * np.exp(-1j * psi)) / (problem.flap.frequency_squared - 2.0 + 0.3j)
+    driving = (
+        problem.flap.load_gain * (problem.arm * problem.disk.dr @ point.forces[FX])
+        - 2.0 * beta * rate
+    )
+    amplitude = (
+        2.0 * np.mean(driving * np.exp(-1j * psi)) / (problem.flap.frequency_squared - 2.0 + 0.3j)
+    )
     assert_allclose(states["lag_1c"] - 1j * states["lag_1s"], amplitude, rtol=1e-8)
 
 
@@ -113,7 +131,10 @@ def test_the_gradient_of_power_follows_the_lag() -> None:
     design = rotor.make_design(mu=0.25, inflow="pitt-peters", twist="linear:-10")
     found = power_gradient(lagging(design)).along(_rate(design)[None])[0]
     step = 0.005
-    ahead, behind = (lagging(design.with_twist(f"linear:{-10 + sign * step}")).power.total for sign in (1.0, -1.0))
+    ahead, behind = (
+        lagging(design.with_twist(f"linear:{-10 + sign * step}")).power.total
+        for sign in (1.0, -1.0)
+    )
     assert_allclose(found, (ahead - behind) / (2.0 * math.radians(step)), rtol=5e-4)
 
 
@@ -151,7 +172,11 @@ class Spring(rotor.Freedom):
 def test_the_order_of_numbers_is_part_of_the_key() -> None:
     design = rotor.make_design(mu=0.2, inflow="pitt-peters")
     for swapped in (False, True, False):
-        assert_allclose(rotor.solve(design, freedoms=[Spring(swapped)]).freedom_states["spring"], 0.02, rtol=1e-9)
+        assert_allclose(
+            rotor.solve(design, freedoms=[Spring(swapped)]).freedom_states["spring"],
+            0.02,
+            rtol=1e-9,
+        )
 
 
 def test_two_classes_of_one_name_are_two_freedoms() -> None:
@@ -174,7 +199,9 @@ def test_two_classes_of_one_name_are_two_freedoms() -> None:
         return Spring()
 
     design = rotor.make_design(mu=0.2, inflow="pitt-peters")
-    found = [rotor.solve(design, freedoms=[made(sign)]).freedom_states["spring"] for sign in (1.0, -1.0)]
+    found = [
+        rotor.solve(design, freedoms=[made(sign)]).freedom_states["spring"] for sign in (1.0, -1.0)
+    ]
     assert_allclose(found, (0.01, -0.01))
 
 
@@ -183,14 +210,24 @@ class TestRefused:
 
     design = rotor.make_design(mu=0.2, inflow="pitt-peters")
 
-    def refused(self, kind: type[Exception], match: str, *freedoms: Any, design: rotor.Design | None = None) -> None:
+    def refused(
+        self, kind: type[Exception], match: str, *freedoms: Any, design: rotor.Design | None = None
+    ) -> None:
         with pytest.raises(kind, match=match):
             rotor.solve(design or self.design, freedoms=freedoms)
 
     def test_where_there_are_none(self) -> None:
-        self.refused(ValueError, "Hover is solved at one azimuth", RigidLag(), design=rotor.make_design(hover=True))
         self.refused(
-            ValueError, "Bending blades already flap", RigidLag(), design=rotor.make_design(mu=0.2, bending=True)
+            ValueError,
+            "Hover is solved at one azimuth",
+            RigidLag(),
+            design=rotor.make_design(hover=True),
+        )
+        self.refused(
+            ValueError,
+            "Bending blades already flap",
+            RigidLag(),
+            design=rotor.make_design(mu=0.2, bending=True),
         )
 
     def test_equations_that_do_not_belong_to_the_columns(self) -> None:
@@ -248,5 +285,7 @@ def test_the_worked_example_flaps_as_its_loads_say_and_its_jacobian_is_exact():
     ]
     step = np.zeros_like(point.x)
     step[states["flap_2s"]] = 1e-6  # A longer one reaches a knot of the section data.
-    ahead, behind = (evaluate(system, system.grid, point.x + sign * step).residual for sign in (1.0, -1.0))
+    ahead, behind = (
+        evaluate(system, system.grid, point.x + sign * step).residual for sign in (1.0, -1.0)
+    )
     assert_allclose(exact, (ahead - behind) / 2e-6, atol=1e-6 * np.abs(exact).max())

@@ -14,7 +14,13 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import TableTwist
 from rotor.engine.linearise import jacobian
 from rotor.optimisation import CONCEPTS
-from rotor.optimisation.objective import POWERS, Objective, WeightedCondition, at_condition, evaluate_objective
+from rotor.optimisation.objective import (
+    POWERS,
+    Objective,
+    WeightedCondition,
+    at_condition,
+    evaluate_objective,
+)
 from rotor.trim import Analysis, SolverOptions, analyse, power_gradient
 from rotor.trim.adjoint import Adjoint, ElementSlopes
 from rotor.trim.newton import FEW_DIGITS, FactorBox
@@ -40,14 +46,19 @@ def check(design: Design, *objectives: Objective) -> None:
         before = before or made.solutions
         trims.append(made.trims)
     for objective in objectives:
-        made = [evaluate_objective(objective, design, solved=one, gradient=one is trims[0]) for one in trims]
+        made = [
+            evaluate_objective(objective, design, solved=one, gradient=one is trims[0])
+            for one in trims
+        ]
         power, ahead, behind = (one.power or math.nan for one in made)
         assert made[0].by_pitch is not None
         exact = CONCEPT.slopes(VALUES, before[0].disk.r) @ made[0].by_pitch * SPAN
         measured = (ahead - behind) / (2 * step)
         # Induced power of a prescribed inflow does not answer to twist: its scale is then the power itself.
         scale = max(np.abs(exact).max(), 1e-3 * abs(power))
-        assert_allclose(way @ exact, measured, atol=RELATIVE * scale, rtol=0.0, err_msg=objective.quantity)
+        assert_allclose(
+            way @ exact, measured, atol=RELATIVE * scale, rtol=0.0, err_msg=objective.quantity
+        )
 
 
 def coarse(**given: Any) -> Design:
@@ -93,27 +104,37 @@ CLOSED = SolverOptions(residual_tolerance=1e-13, inflow_tolerance=1e-11, torsion
 NAMES = ("fz", "fx", "inflow", "theta", "u_t", "u_p", "u_r", "swirl")
 
 
-def line(mu: float, inflow: str = "lifting-line", *, elastic: bool = True, preset: str = "flight") -> Design:
+def line(
+    mu: float, inflow: str = "lifting-line", *, elastic: bool = True, preset: str = "flight"
+) -> Design:
     made = make_design(preset=preset, twist="linear:-14", mu=mu)
-    return replace(made, models=replace(made.models, inflow=inflow, elastic_twist=elastic, elements=20, azimuths=48))
+    return replace(
+        made,
+        models=replace(made.models, inflow=inflow, elastic_twist=elastic, elements=20, azimuths=48),
+    )
 
 
 @pytest.mark.parametrize("elastic", [False, True], ids=["rigid", "elastic"])
-@pytest.mark.parametrize("mu", [0.0, 0.06, 0.3])  # At the second forward flight is joined with hover.
+# At the second forward flight is joined with hover.
+@pytest.mark.parametrize("mu", [0.0, 0.06, 0.3])
 @pytest.mark.parametrize("inflow", ["lifting-line", "local-momentum", "drees"])
 def test_gradient_of_a_solution_from_another_process(inflow: str, mu: float, elastic: bool):
     here = analyse(line(mu, inflow, elastic=elastic))
     there: Solution = pickle.loads(pickle.dumps(here.solution))
     for objective in ("total", "induced"):
         own = power_gradient(here, objective).by_element
-        assert_allclose(power_gradient(there, objective).by_element, own, rtol=0, atol=1e-9 * np.abs(own).max())
+        assert_allclose(
+            power_gradient(there, objective).by_element, own, rtol=0, atol=1e-9 * np.abs(own).max()
+        )
 
 
 def test_gradient_of_a_solution_whose_thrust_is_downward():
     """Its λ0, which is negative, was taken as 1e-4 where only the solution was given: 0.2 % off."""
     here = analyse(make_design(mu=0.2, trim="controls", stand={"collective_deg": -4.0}))
     own = power_gradient(here).by_element
-    assert_allclose(power_gradient(here.solution).by_element, own, rtol=0, atol=1e-9 * np.abs(own).max())
+    assert_allclose(
+        power_gradient(here.solution).by_element, own, rtol=0, atol=1e-9 * np.abs(own).max()
+    )
 
 
 @pytest.mark.parametrize(
@@ -143,7 +164,9 @@ def test_any_measure_of_the_blade_elements(made: Design):
         assert_allclose(found @ bend, slope, rtol=0, atol=1e-6 * np.abs(found).max() + 1e-10)
 
 
-@pytest.mark.parametrize("models", [{}, {"bending": True}, {"inflow": "pitt-peters", "azimuths": 120}], ids=str)
+@pytest.mark.parametrize(
+    "models", [{}, {"bending": True}, {"inflow": "pitt-peters", "azimuths": 120}], ids=str
+)
 def test_factors_made_at_a_trim_spare_passes_and_change_no_answer(models: dict[str, Any]) -> None:
     """Beside the whole Jacobian with what forces remember, solved directly. The last factors of a blade that bends were
     made so near its trim that none are better."""

@@ -19,7 +19,9 @@ R = np.linspace(0.13, 0.99, 44)
 SIGMA, SLOPE = 0.0821, 5.9
 
 
-def hover(preset: str = "flight", twist: str = "linear:-12", mass: float = 8322.4, **models: object) -> Solution:
+def hover(
+    preset: str = "flight", twist: str = "linear:-12", mass: float = 8322.4, **models: object
+) -> Solution:
     design = make_design(preset=preset, twist=twist, mu=0.0, mass_kg=mass)
     return solve(replace(design, models=replace(design.models, **models))).require()
 
@@ -50,17 +52,25 @@ def test_ideal_twist_gives_uniform_inflow():
 @pytest.mark.parametrize("preset", ["flight", "thesis"])
 def test_thrust_is_weight_and_nothing_varies_with_azimuth(preset: str):
     solution = hover(preset)
-    download = 0.035 if preset == "flight" else 0.0  # Of the UH-60A's rotor file; the document has none.
+    # Of the UH-60A's rotor file; the document has none.
+    download = 0.035 if preset == "flight" else 0.0
     assert_allclose(solution.ct, (1.0 + download) * solution.design.weight_coefficient, rtol=1e-10)
     assert np.ptp(solution.disk.dct, axis=1).max() == 0.0
-    assert solution.controls.cyclic_1s == solution.controls.shaft_tilt == solution.power.parasite == 0.0
+    assert (
+        solution.controls.cyclic_1s
+        == solution.controls.shaft_tilt
+        == solution.power.parasite
+        == 0.0
+    )
 
 
 def test_without_losses_power_is_above_momentum_theory():
     """Induced power of any radial loading is at least T v_h; without losses a good twist is within 6 % of it."""
     ideal = 8322.4 * 9.80665 * math.sqrt(8322.4 * 9.80665 / (2 * 1.225 * math.pi * 8.1788**2))
     for twist, largest in (("linear:-12", 1.06), ("linear:0", 1.15)):
-        induced = hover(twist=twist, tip_loss=False, hub_loss=False, swirl=False, download=False).power.induced
+        induced = hover(
+            twist=twist, tip_loss=False, hub_loss=False, swirl=False, download=False
+        ).power.induced
         assert 1.0 < induced / ideal < largest
 
 
@@ -70,7 +80,8 @@ def test_coning_by_the_moment_integral(preset: str):
     solution = hover(preset)
     design, disk = solution.design, solution.disk
     rotor, blade = design.rotor, design.rotor.blade
-    force = disk.dct[:, 0] * disk.dr * design.thrust_unit / rotor.blades  # [N] per element and blade
+    # [N] per element and blade
+    force = disk.dct[:, 0] * disk.dr * design.thrust_unit / rotor.blades
     arm = (disk.r - blade.flap_hinge) * rotor.radius
     weight = 9.80665 * blade.flap_static_moment if preset == "flight" else 0.0
     spring = blade.flap_inertia + blade.flap_hinge * rotor.radius * blade.flap_static_moment
@@ -108,7 +119,10 @@ def test_what_does_not_trim_says_why():
     assert "drag tilts the shaft by 76°" in solution.message
     assert solution.message.endswith("raise the mass, or lower the speed or the drag area.")
     # 18 t at sea level and 8.3 t at 7000 m: no rotor has lifted as much.
-    for design in (make_design(hover=True, mass_kg=18_000.0), make_design(hover=True, altitude_m=7000.0)):
+    for design in (
+        make_design(hover=True, mass_kg=18_000.0),
+        make_design(hover=True, altitude_m=7000.0),
+    ):
         solution = solve(design)
         assert not solution.converged
         assert "rotors have reached about 0.17" in solution.message
@@ -119,11 +133,17 @@ def test_a_rotor_that_presses_down_is_the_mirrored_one():
 
     def at(collective: float) -> Solution:
         stand = {"collective_deg": collective}
-        return solve(make_design(rotor="knight-hefner-3", hover=True, trim="controls", stand=stand)).require()
+        return solve(
+            make_design(rotor="knight-hefner-3", hover=True, trim="controls", stand=stand)
+        ).require()
 
     up, none, down = map(at, (4.0, 0.0, -4.0))
     assert down.ct < 0.0
-    for read in (lambda s: s.ct, lambda s: s.controls.lambda0, lambda s: float(s.disk.induced.mean())):
+    for read in (
+        lambda s: s.ct,
+        lambda s: s.controls.lambda0,
+        lambda s: float(s.disk.induced.mean()),
+    ):
         assert_allclose(read(down), -read(up), rtol=1e-4)
     assert_allclose(down.controls.lambda0, -math.sqrt(-0.5 * down.ct), rtol=1e-12)
     assert down.figure_of_merit == pytest.approx(up.figure_of_merit, rel=5e-3)
@@ -153,5 +173,8 @@ def test_closed_form_uses_each_sections_own_lift_curve():
         element = int(np.argmin(np.abs(problem.disk.r - radius)))
         section = load_installed(name)
         assert_allclose(slope[element], section.table.lift_slope(0.3), rtol=1e-12)
-        assert_allclose(zero[element], section.table.zero_lift_alpha(0.3) + section.incidence_offset, rtol=1e-12)
-    assert_allclose(np.degrees(zero[len(zero) // 2] - zero[0]), -1.6 + 1.0 + 0.72, atol=0.1)  # XFOIL's own α0.
+        assert_allclose(
+            zero[element], section.table.zero_lift_alpha(0.3) + section.incidence_offset, rtol=1e-12
+        )
+    # XFOIL's own α0.
+    assert_allclose(np.degrees(zero[len(zero) // 2] - zero[0]), -1.6 + 1.0 + 0.72, atol=0.1)

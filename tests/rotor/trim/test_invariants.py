@@ -37,7 +37,9 @@ def test_scaling_at_fixed_mach_leaves_coefficients():
     blade = grown(blade, chords=1, flap_inertia=5, flap_static_moment=4, mass=3)
     scaled = replace(
         design,
-        rotor=grown(replace(design.rotor, blade=blade), radius=1, angular_speed=-1, reference_chord=1),
+        rotor=grown(
+            replace(design.rotor, blade=blade), radius=1, angular_speed=-1, reference_chord=1
+        ),
         condition=grown(design.condition, mass=2),
         fuselage=grown(design.fuselage, drag_area=2),
     )
@@ -53,7 +55,9 @@ def test_scaling_at_fixed_mach_leaves_coefficients():
 def test_twist_offset_is_absorbed_by_collective():
     """A constant added to the twist is collective: the same rotor."""
     table = TableTwist((0.0, 1.0), (0.3, 0.1))
-    a, b = (solve(make_design(mu=0.2, twist=twist)).require() for twist in (LinearTwist(-0.2), table))
+    a, b = (
+        solve(make_design(mu=0.2, twist=twist)).require() for twist in (LinearTwist(-0.2), table)
+    )
     assert_allclose(b.power.total, a.power.total, rtol=1e-10)
 
 
@@ -65,7 +69,9 @@ def test_low_speed_tends_to_symmetry(preset: str):
     solution = solve(replace(design, models=models)).require()
     assert np.ptp(solution.disk.dct, axis=1).max() < 2e-3 * solution.disk.dct.max()
     assert_allclose(solution.controls.lambda0, math.sqrt(solution.ct / 2.0), rtol=1e-4)
-    assert_allclose(solution.power.induced / design.power_unit, solution.ct**1.5 / math.sqrt(2.0), rtol=1e-4)
+    assert_allclose(
+        solution.power.induced / design.power_unit, solution.ct**1.5 / math.sqrt(2.0), rtol=1e-4
+    )
 
 
 @pytest.mark.parametrize(("mu", "within"), [(0.1, 5e-5), (0.35, 6e-4)])
@@ -82,6 +88,8 @@ def test_few_azimuths_stand_for_all(inflow: str, mu: float, within: float):
     assert_allclose(few.power.total, whole.power.total, rtol=within)
     system, x = Analysis(whole).linear.point.system, Analysis(whole).linear.point.x
     assert system.thin.waves.azimuths == LEAST_AZIMUTHS
-    matrices = [jacobian(evaluate(system, grid, x, slopes=True))[0] for grid in (system.grid, system.thin)]
+    matrices = [
+        jacobian(evaluate(system, grid, x, slopes=True))[0] for grid in (system.grid, system.thin)
+    ]
     left = np.eye(len(matrices[0])) - np.linalg.solve(matrices[1], matrices[0])
     assert np.abs(np.linalg.eigvals(left)).max() < 2e-2

@@ -11,7 +11,12 @@ from numpy.testing import assert_allclose
 from rotor import Design, Solution, make_design, optimise, solve
 from rotor.aero.disk import Disk
 from rotor.aero.inflow.interface import Losses
-from rotor.aero.inflow.lifting_line import CIRCULATION, LINE_PAIRS, LiftingLineInflow, LiftingLineTerms
+from rotor.aero.inflow.lifting_line import (
+    CIRCULATION,
+    LINE_PAIRS,
+    LiftingLineInflow,
+    LiftingLineTerms,
+)
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.section import UP, UT
 from rotor.airfoil.sections import load_section
@@ -24,7 +29,9 @@ from rotor.trim.power import power_budget
 from rotor.validation import design_at, load_set
 
 
-def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 4, **models: Any) -> Design:
+def line(
+    mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 4, **models: Any
+) -> Design:
     """A UH-60A with the lifting line; mass: as a part of its own; blades: of the same solidity."""
     design = make_design(mu=mu, twist=twist)
     blade = design.rotor.blade
@@ -34,7 +41,11 @@ def line(mu: float, twist: str = "linear:-12", mass: float = 1.0, blades: int = 
         rotor = replace(design.rotor, blade=blade, blades=blades)
         design = replace(design, rotor=rotor)
     condition = replace(design.condition, mass=mass * design.condition.mass)
-    return replace(design, condition=condition, models=replace(design.models, **{"inflow": "lifting-line"} | models))
+    return replace(
+        design,
+        condition=condition,
+        models=replace(design.models, **{"inflow": "lifting-line"} | models),
+    )
 
 
 def by_linear_twist(solution: Solution) -> float:
@@ -47,7 +58,10 @@ def best_linear(mu: float, **models: Any) -> float:
     """The linear twist of least power [deg], by secants on the gradient."""
     one, other = -12.0, -14.0
     start = solve(line(mu, f"linear:{one}", **models))
-    slope, more = by_linear_twist(start), by_linear_twist(solve(line(mu, f"linear:{other}", **models), start))
+    slope, more = (
+        by_linear_twist(start),
+        by_linear_twist(solve(line(mu, f"linear:{other}", **models), start)),
+    )
     for _ in range(4):
         one, other, slope = other, other - more * (other - one) / (more - slope), more
         more = by_linear_twist(solve(line(mu, f"linear:{other:.6f}", **models), start))
@@ -90,7 +104,10 @@ def test_where_to_twist_is_no_saw_tooth(mu: float, most: float):
 @pytest.mark.slow
 @pytest.mark.parametrize("mu", [0.2, 0.3])
 def test_the_outboard_rate_of_three_segments_is_the_same_from_any_start(mu: float):
-    found = [optimise(line(mu, elastic_twist=False), "three-segment-free", starts=1, seed=k) for k in range(6)]
+    found = [
+        optimise(line(mu, elastic_twist=False), "three-segment-free", starts=1, seed=k)
+        for k in range(6)
+    ]
     rates = [float(each.twist.spec().split("@")[0].split(",")[2]) for each in found]
     assert np.ptp(rates) < 0.5
 
@@ -98,7 +115,10 @@ def test_the_outboard_rate_of_three_segments_is_the_same_from_any_start(mu: floa
 @pytest.mark.parametrize("blades", [2, 3, 5, 7])
 def test_any_number_of_blades(blades: int):
     """Same solidity: the fewer the blades, the larger the loss at their tips."""
-    found, usual = solve(line(0.2, blades=blades, elastic_twist=False)), solve(line(0.2, elastic_twist=False))
+    found, usual = (
+        solve(line(0.2, blades=blades, elastic_twist=False)),
+        solve(line(0.2, elastic_twist=False)),
+    )
     assert found.converged
     assert (found.power.induced > usual.power.induced) == (blades < 4)
 
@@ -106,7 +126,12 @@ def test_any_number_of_blades(blades: int):
 def test_the_loss_at_the_tips_goes_with_one_over_the_number_of_blades():
     """Prandtl's and Goldstein's: κ = κ∞ + c/N_b at equal solidity, and at no number of blades less than 1."""
     over = 1.0 / np.array([4, 7, 8, 9, 12])
-    found = np.array([solve(line(0.2, blades=round(1.0 / x), elastic_twist=False)).induced_power_factor for x in over])
+    found = np.array(
+        [
+            solve(line(0.2, blades=round(1.0 / x), elastic_twist=False)).induced_power_factor
+            for x in over
+        ]
+    )
     assert (np.diff(found) < 0.0).all()
     slope, limit = np.polyfit(over, found, 1)
     assert limit > 1.0
@@ -120,15 +145,22 @@ class FullLattice(LiftingLineInflow):
     near: float = 0.0
 
     def on(self, disk: Disk, course: WakeCourse, losses: Losses) -> LiftingLineTerms:
-        return LiftingLineTerms(replace(super().on(disk, course, losses).line, near=self.near), course)
+        return LiftingLineTerms(
+            replace(super().on(disk, course, losses).line, near=self.near), course
+        )
 
 
 @pytest.mark.parametrize(
-    ("mu", "azimuths"), [(0.2, 24), pytest.param(0.1, 48, marks=pytest.mark.slow)], ids=["0.2", "0.1"]
+    ("mu", "azimuths"),
+    [(0.2, 24), pytest.param(0.1, 48, marks=pytest.mark.slow)],
+    ids=["0.2", "0.1"],
 )
 def test_the_length_of_the_near_wake_decides_nothing(mu: float, azimuths: int):
     """15 to 120°. At µ 0.1 the strips' steps of 15° are too long where they first pass under a blade, at 90°: 0.9 %."""
-    problem, powers = trim_problem(line(mu, elastic_twist=False, line_azimuths=azimuths)), list[float]()
+    problem, powers = (
+        trim_problem(line(mu, elastic_twist=False, line_azimuths=azimuths)),
+        list[float](),
+    )
     for near in (15.0, 30.0, 60.0, 90.0, 120.0):
         found = trim(replace(problem, inflow=FullLattice(math.radians(near))))
         assert found.converged
@@ -145,7 +177,9 @@ def test_the_wake_along_the_trim_found_changes_little(mu: float, twist: str):
     first = trim(problem)
     again = trim(replace(problem, course=along(first, problem.course)))
     trims = [found.linear for found in (first, again)]
-    powers = [power_budget(problem, found.elements, disk_sums(found.point)).total for found in trims]
+    powers = [
+        power_budget(problem, found.elements, disk_sums(found.point)).total for found in trims
+    ]
     assert powers[1] == pytest.approx(powers[0], rel=3e-3)
 
 
@@ -214,7 +248,9 @@ def test_a_free_rotors_wake_lies_along_the_tilt_that_it_finds():
 
 
 @pytest.mark.parametrize("mu", [0.1, 0.2, 0.3])
-def test_a_fine_line_takes_no_more_derivatives_than_a_coarse_one(mu: float, evaluated: list[Factors]):
+def test_a_fine_line_takes_no_more_derivatives_than_a_coarse_one(
+    mu: float, evaluated: list[Factors]
+):
     """A guess of the circulation stalled its tip panels: with 48 of them it took five to nine Jacobians."""
     assert solve(line(mu, panels=48, line_azimuths=24)).converged
     assert 1 <= sum(len(one.weight) > 48 * 24 for one in evaluated) <= 3

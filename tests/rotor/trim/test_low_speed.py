@@ -15,22 +15,34 @@ from tests.patched import Patch
 from tests.solved import assert_same_trim
 
 
-def design(twist: str = "linear:-12", low_speed: LowSpeed = "hover", elastic_twist: bool = True) -> Design:
+def design(
+    twist: str = "linear:-12", low_speed: LowSpeed = "hover", elastic_twist: bool = True
+) -> Design:
     made = make_design(hover=True, twist=twist)
-    return replace(made, models=replace(made.models, low_speed=low_speed, elastic_twist=elastic_twist))
+    return replace(
+        made, models=replace(made.models, low_speed=low_speed, elastic_twist=elastic_twist)
+    )
 
 
 def watts(what: Design) -> float:
-    return solve(what, None, SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11)).require().power.total
+    return (
+        solve(what, None, SolverOptions(residual_tolerance=1e-12, inflow_tolerance=1e-11))
+        .require()
+        .power.total
+    )
 
 
 @pytest.mark.parametrize(
-    ("mu", "ratio"), [(0.0, 1.0), (math.sqrt(1.5), math.sqrt(0.5)), (100.0, 0.01)], ids=["hover", "", "fast"]
+    ("mu", "ratio"),
+    [(0.0, 1.0), (math.sqrt(1.5), math.sqrt(0.5)), (100.0, 0.01)],
+    ids=["hover", "", "fast"],
 )
 def test_inflow_ratio_is_glauerts(mu: float, ratio: float):
     """λ̄⁴ + µ̄² λ̄² = 1: λ̄² is ½ at µ̄² = 3/2, and λ̄ tends to 1/µ̄."""
     assert inflow_ratio(mu) == pytest.approx(ratio, abs=1e-8)
-    assert inflow_ratio(mu) == pytest.approx(glauert_inflow(2.0 * 0.08**2, 0.08 * mu, 0.0)[0] / 0.08, rel=1e-8)
+    assert inflow_ratio(mu) == pytest.approx(
+        glauert_inflow(2.0 * 0.08**2, 0.08 * mu, 0.0)[0] / 0.08, rel=1e-8
+    )
 
 
 def test_share_falls_faster_than_the_fifth_power_and_ends():

@@ -31,7 +31,11 @@ BATCH = [
 def same(found: Sequence[Solution], wanted: Sequence[Solution]) -> None:
     for ours, theirs in zip(found, wanted, strict=True):
         assert ours.design == theirs.design
-        assert (ours.status, ours.message, ours.passes) == (theirs.status, theirs.message, theirs.passes)
+        assert (ours.status, ours.message, ours.passes) == (
+            theirs.status,
+            theirs.message,
+            theirs.passes,
+        )
         assert ours.controls.array() == pytest.approx(theirs.controls.array(), rel=SAME, abs=SAME)
         assert ours.last_power.total == pytest.approx(theirs.last_power.total, rel=SAME)
         assert ours.disk.alpha == pytest.approx(theirs.disk.alpha, rel=0, abs=1e-11)
@@ -54,7 +58,9 @@ def test_trims_in_step_have_all_that_a_gradient_needs():
     start = solve(TWISTED[2])
     for trim, design in zip(analyse_many(TWISTED, [start] * len(TWISTED)), TWISTED, strict=True):
         wanted = power_gradient(analyse(design, start)).by_element
-        assert trim.gradient.by_element == pytest.approx(wanted, rel=1e-7, abs=1e-7 * np.abs(wanted).max())
+        assert trim.gradient.by_element == pytest.approx(
+            wanted, rel=1e-7, abs=1e-7 * np.abs(wanted).max()
+        )
 
 
 def test_designs_are_in_step_and_one_that_does_not_follow_leaves(monkeypatch: pytest.MonkeyPatch):
@@ -75,7 +81,9 @@ def test_what_is_no_design_is_refused_and_a_stop_is_heeded():
     assert solve_many([]) == []
     with pytest.raises(TypeError, match=r"rotor\.make_design"):
         rotor.solve_many([TWISTED[0], "uh60a"])  # type: ignore[list-item]
-    hopeless = [make_design(mu=0.42, mass_kg=14_000, twist=twist) for twist in ("linear:0", "linear:-4")]
+    hopeless = [
+        make_design(mu=0.42, mass_kg=14_000, twist=twist) for twist in ("linear:0", "linear:-4")
+    ]
     stopped = solve_many(hopeless, SolverOptions(stop=lambda: True))
     assert not any(solution.converged for solution in stopped)
     assert all(solution.passes <= 3 * SolverOptions().max_passes for solution in stopped)

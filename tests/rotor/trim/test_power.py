@@ -52,7 +52,9 @@ def test_induced_power_of_linear_inflow_does_not_depend_on_twist(name: str):
     for mu in (0.15, 0.3):
         induced = []
         for twist in ("linear:0", "linear:-8", "linear:-16"):
-            induced.append(solve(make_design(twist=twist, mu=mu, inflow=name)).require().power.induced)
+            induced.append(
+                solve(make_design(twist=twist, mu=mu, inflow=name)).require().power.induced
+            )
         assert np.ptp(induced) < 0.01 * np.mean(induced)
 
 
@@ -62,12 +64,18 @@ def test_eq_3_15_with_its_first_coefficient_corrected(mu: float):
     sigma, drag = 0.0821, 0.01
     whole, _ = dblquad(lambda r, psi: (r + mu * math.sin(psi)) ** 3, 0.0, 2.0 * math.pi, 0.0, 1.0)
     reverse, _ = dblquad(
-        lambda r, psi: (r + mu * math.sin(psi)) ** 3, math.pi, 2.0 * math.pi, 0.0, lambda psi: -mu * math.sin(psi)
+        lambda r, psi: (r + mu * math.sin(psi)) ** 3,
+        math.pi,
+        2.0 * math.pi,
+        0.0,
+        lambda psi: -mu * math.sin(psi),
     )
     corrected = sigma * drag * (whole / (4.0 * math.pi) - reverse / (2.0 * math.pi))
     assert_allclose(profile_power_coefficient(sigma, drag, mu), corrected, rtol=1e-10)
     if mu == 0.0:
-        assert_allclose(sigma * drag * whole / (2.0 * math.pi), 2.0 * sigma * drag / 8.0, rtol=1e-12)
+        assert_allclose(
+            sigma * drag * whole / (2.0 * math.pi), 2.0 * sigma * drag / 8.0, rtol=1e-12
+        )
 
 
 @pytest.mark.parametrize("off", [(), ("reverse_flow",)], ids=["", "no reverse flow"])
@@ -78,23 +86,35 @@ def test_numerical_profile_power_of_a_constant_drag(off: tuple[str, ...]):
     elements = elements_at(problem, TrimState(lambda0=1e-9))
     assert (problem.unloaded is None) == (not off)
     loaded = 1.0 if problem.unloaded is None else ~problem.unloaded
-    pull = drag * loaded * problem.disk.half_solidity[:, None] * np.hypot(elements.u_t, elements.u_p)
+    pull = (
+        drag * loaded * problem.disk.half_solidity[:, None] * np.hypot(elements.u_t, elements.u_p)
+    )
     elements = replace(elements, fx=pull * elements.u_t, fz=-pull * elements.u_p)
-    budget, rotor = power_budget(problem, elements, disk_sums(problem.disk, elements)), problem.design.rotor
+    budget, rotor = (
+        power_budget(problem, elements, disk_sums(problem.disk, elements)),
+        problem.design.rotor,
+    )
     root = rotor.blade.root_cutout
     whole, _ = dblquad(
         lambda r, psi: abs(r + mu * math.sin(psi)) ** 3, 0.0, 2.0 * math.pi,
         lambda psi: max(root, -mu * math.sin(psi)) if off else root, 1.0,
     )  # fmt: skip
     expected = rotor.solidity * drag * whole / (4.0 * math.pi)
-    assert_allclose(budget.profile / problem.design.power_unit, expected, rtol=5e-4)  # midpoint rule in r
+    # midpoint rule in r
+    assert_allclose(budget.profile / problem.design.power_unit, expected, rtol=5e-4)
 
 
 def test_induced_power_of_uniform_inflow_by_hand():
     """Σ λ0 dF_z = λ0 C_T."""
     design = make_design(mu=0.25)
-    solution = solve(replace(design, models=replace(design.models, inflow="uniform", swirl=False))).require()
-    assert_allclose(solution.power.induced, solution.controls.lambda0 * solution.ct * design.power_unit, rtol=1e-9)
+    solution = solve(
+        replace(design, models=replace(design.models, inflow="uniform", swirl=False))
+    ).require()
+    assert_allclose(
+        solution.power.induced,
+        solution.controls.lambda0 * solution.ct * design.power_unit,
+        rtol=1e-9,
+    )
 
 
 # The tail rotor
@@ -123,6 +143,7 @@ def test_hover_power_by_hand():
 def test_slope_is_exact(speed: float, torque: float):
     _, slope = tail_rotor_power(TAIL, torque, speed, 1.1)
     difference = (
-        tail_rotor_power(TAIL, torque + 1.0, speed, 1.1)[0] - tail_rotor_power(TAIL, torque - 1.0, speed, 1.1)[0]
+        tail_rotor_power(TAIL, torque + 1.0, speed, 1.1)[0]
+        - tail_rotor_power(TAIL, torque - 1.0, speed, 1.1)[0]
     ) / 2.0
     assert_allclose(slope, difference, rtol=1e-6)

@@ -74,18 +74,47 @@ def test_the_largest_mass_that_a_failure_names_is_where_trims_end():
     altitude=st.floats(0.0, 4000.0),
     losses=st.booleans(),
 )
-@example(preset="flight", inflow="pitt-peters", mu=0.45, rate=5.0, mass=11000.0, altitude=4000.0, losses=True)
-@example(preset="flight", inflow="pitt-peters", mu=0.45, rate=-24.0, mass=5000.0, altitude=0.0, losses=True)
-@example(preset="thesis", inflow="drees", mu=0.45, rate=5.0, mass=11000.0, altitude=4000.0, losses=True)
-@example(preset="flight", inflow="drees", mu=0.0005, rate=-24.0, mass=11000.0, altitude=4000.0, losses=False)
+@example(
+    preset="flight",
+    inflow="pitt-peters",
+    mu=0.45,
+    rate=5.0,
+    mass=11000.0,
+    altitude=4000.0,
+    losses=True,
+)
+@example(
+    preset="flight",
+    inflow="pitt-peters",
+    mu=0.45,
+    rate=-24.0,
+    mass=5000.0,
+    altitude=0.0,
+    losses=True,
+)
+@example(
+    preset="thesis", inflow="drees", mu=0.45, rate=5.0, mass=11000.0, altitude=4000.0, losses=True
+)
+@example(
+    preset="flight",
+    inflow="drees",
+    mu=0.0005,
+    rate=-24.0,
+    mass=11000.0,
+    altitude=4000.0,
+    losses=False,
+)
 def test_converged_or_a_sentence(
     preset: str, inflow: str, mu: float, rate: float, mass: float, altitude: float, losses: bool
 ):
-    design = make_design(preset=preset, twist=f"linear:{rate:.6f}", mu=mu, mass_kg=mass, altitude_m=altitude)
+    design = make_design(
+        preset=preset, twist=f"linear:{rate:.6f}", mu=mu, mass_kg=mass, altitude_m=altitude
+    )
     models = replace(design.models, inflow=inflow, tip_loss=losses, hub_loss=losses)
     solution = solve(replace(design, models=models))
     check(solution)
-    faster = design.condition.advance_ratio > 0.4  # Than those flights; up to 0.37 none of 400 of 0.068 to 0.08 fails.
+    # Than those flights; up to 0.37 none of 400 of 0.068 to 0.08 fails.
+    faster = design.condition.advance_ratio > 0.4
     assert solution.converged or blade_loading(design) > TRIMMABLE or faster
 
 
@@ -132,7 +161,8 @@ def test_the_trim_of_least_power_is_found():
     first = newton(problem, first_guess(problem))
     assert first.converged
     cold = solve(DEEP_STALL)
-    assert first.state.collective > cold.controls.collective + math.radians(1.0)  # The trap is still there.
+    # The trap is still there.
+    assert first.state.collective > cold.controls.collective + math.radians(1.0)
     heavier = None
     for mass in (6500.0, 8000.0, 9500.0, 10000.0, 10250.0, 10500.0):
         heavier = solve(at_mass(DEEP_STALL, mass), heavier)
@@ -184,7 +214,9 @@ def test_continuation_on_a_stand_stays_within_its_limits():
 
 def test_a_rotor_whose_sections_are_all_beyond_stall_on_the_way_ends_with_a_sentence():
     """None of them has a lag then, and the derivatives with lags had no shape: numpy's ValueError."""
-    assert solve(make_design(rotor="r22", mu=0.2, mass_kg=20_000.0, off="flapping")).message.startswith("Not trimmed:")
+    assert solve(
+        make_design(rotor="r22", mu=0.2, mass_kg=20_000.0, off="flapping")
+    ).message.startswith("Not trimmed:")
 
 
 def test_a_hopeless_design_ends_within_the_passes_allowed_or_when_told():
@@ -217,7 +249,11 @@ def check_random(count: int, seed: int) -> None:
     # A hundred designs have some twenty in plain level flight, of which one is 5 %: a second one is chance.
     assert (1.0 - share(outcomes)) * plain <= max((1.0 - FIRST) * plain, 2.0) + 1e-9
     # A free rotor has no equilibrium at many a load, and beyond 25 % of the moment stalled there is no power.
-    possible = [one for one in outcomes if one.asked.get("trim") != "free-rotor" and one.stalled <= MOST_STALLED]
+    possible = [
+        one
+        for one in outcomes
+        if one.asked.get("trim") != "free-rotor" and one.stalled <= MOST_STALLED
+    ]
     assert len(possible) > 0.5 * count
     assert sum(one.kind == "trimmed" for one in possible) > 0.95 * len(possible)
 
@@ -235,7 +271,9 @@ def test_ten_thousand_designs(seed: int):
 
 
 @pytest.mark.parametrize(
-    "case", [{"mu": 0.151}, {"mu": 0.301, "bending": True}, {"mu": 0.401, "mass_kg": 9500.0}], ids=str
+    "case",
+    [{"mu": 0.151}, {"mu": 0.301, "bending": True}, {"mu": 0.401, "mass_kg": 9500.0}],
+    ids=str,
 )
 def test_the_blade_as_built_nearly_trimmed_is_as_good_a_start(
     case: dict[str, Any], monkeypatch: pytest.MonkeyPatch

@@ -27,7 +27,9 @@ FIRST, SECOND = make_design(twist="linear:-10", mu=0.2), make_design(twist="line
 def test_steps_of_one_slider_are_counted_and_anything_else_begins_from_the_last_trim(
     changed: dict[str, Any], steps: float | None
 ):
-    found = steps_ahead(FIRST, SECOND, make_design(**{"twist": "linear:-10.8", "mu": 0.2} | changed))
+    found = steps_ahead(
+        FIRST, SECOND, make_design(**{"twist": "linear:-10.8", "mu": 0.2} | changed)
+    )
     assert found == (steps if steps is None else pytest.approx(steps, abs=1e-9))
 
 
@@ -49,13 +51,18 @@ def test_a_drag_takes_fewer_passes(models: dict[str, Any], slider: str):
 
     def design(at: float) -> Design:
         value = begun + at * step
-        asked: dict[str, Any] = {"mu": 0.2, slider: f"linear:{value}" if slider == "twist" else value}
+        asked: dict[str, Any] = {
+            "mu": 0.2,
+            slider: f"linear:{value}" if slider == "twist" else value,
+        }
         return make_design(**asked | models)
 
     def passes(through: bool) -> list[int]:
         latest, each = solve(design(0.0)), list[int]()
         for at in (1.0, 2.0, 3.5, 4.0, 3.5, 2.5, 3.0, 15.0):
-            latest = analyse(design(at), latest if through else latest.start, FEW_DIGITS).solution.require()
+            latest = analyse(
+                design(at), latest if through else latest.start, FEW_DIGITS
+            ).solution.require()
             each.append(latest.passes)
         return each
 

@@ -33,17 +33,26 @@ def test_a_light_solution_shows_the_same_from_less_than_50_kb(case: dict[str, An
     exact = 0.0 if case["mu"] else 10.0 * SAME  # Hover is iterated once more.
     for name in FIELDS:
         wanted = getattr(full.disk, name)
-        np.testing.assert_allclose(getattr(light.disk, name), wanted, rtol=0.0, atol=exact * np.abs(wanted).max())
+        np.testing.assert_allclose(
+            getattr(light.disk, name), wanted, rtol=0.0, atol=exact * np.abs(wanted).max()
+        )
     assert light.shown.areas == pytest.approx(full.shown.areas, rel=exact, abs=exact)
     assert light.caveats == full.caveats
     if full.elastic is not None and light.elastic is not None:
-        np.testing.assert_allclose(light.elastic.control_moment, full.elastic.control_moment, rtol=exact)
+        np.testing.assert_allclose(
+            light.elastic.control_moment, full.elastic.control_moment, rtol=exact
+        )
 
 
 def test_threads_that_read_at_once_read_the_same() -> None:
     solution = solve(make_design(mu=0.3, mass_kg=11_000.0))
     with ThreadPoolExecutor(4) as pool:
-        read = [*pool.map(lambda one: (one.stalled_area, one.disk.alpha.tobytes(), one.caveats), [solution] * 8)]
+        read = [
+            *pool.map(
+                lambda one: (one.stalled_area, one.disk.alpha.tobytes(), one.caveats),
+                [solution] * 8,
+            )
+        ]
     assert all(one == read[0] for one in read)
 
 
@@ -59,7 +68,9 @@ def test_what_is_shown_of_a_trim_takes_no_second_problem(monkeypatch: pytest.Mon
 def test_searches_and_many_trims_make_no_fields(monkeypatch: pytest.MonkeyPatch) -> None:
     made: list[Solution] = []
     make = assembling.shown_of
-    monkeypatch.setattr(assembling, "shown_of", lambda solution: made.append(solution) or make(solution))
+    monkeypatch.setattr(
+        assembling, "shown_of", lambda solution: made.append(solution) or make(solution)
+    )
     many = solve_many(make_design(mu=0.2, twist=f"linear:{rate}") for rate in (-8, -10))
     assert optimise(make_design(mu=0.2, inflow="uniform"), "linear", starts=1).evaluations > 2
     assert made == []
@@ -69,9 +80,17 @@ def test_searches_and_many_trims_make_no_fields(monkeypatch: pytest.MonkeyPatch)
 
 def test_the_azimuths_of_the_trim_tell_how_much_is_stalled() -> None:
     shares: list[float] = []
-    for rate, mu, heavier in ((0, 0.36, 1.2), (-4, 0.43, 1.1), (-8, 0.4, 1.3), (-12, 0.45, 1.3), (-16, 0.3, 1.5)):
+    for rate, mu, heavier in (
+        (0, 0.36, 1.2),
+        (-4, 0.43, 1.1),
+        (-8, 0.4, 1.3),
+        (-12, 0.45, 1.3),
+        (-16, 0.3, 1.5),
+    ):
         design = make_design(mu=mu, twist=f"linear:{rate}")
-        trim = analyse(design.at(mass_kg=heavier * design.condition.mass), options=SolverOptions(remedy=False))
+        trim = analyse(
+            design.at(mass_kg=heavier * design.condition.mass), options=SolverOptions(remedy=False)
+        )
         assert abs(trim.linear.stalled_moment - trim.solution.stalled_moment) < 0.5 * SHARE_ERROR
         shares.append(trim.solution.stalled_moment)
     assert min(shares) < 0.2 < 0.25 < max(shares)

@@ -10,7 +10,15 @@ from rotor import Design, make_design, optimise, solve
 from rotor.design.quantities import CONDITION
 from rotor.optimisation.concepts import find_concept
 from rotor.trim.forward import found_course
-from tests.tools.sweeps import STEPS, Sweep, largest_jump, lasting_jump, random_sweep, sweep, values_of
+from tests.tools.sweeps import (
+    STEPS,
+    Sweep,
+    largest_jump,
+    lasting_jump,
+    random_sweep,
+    sweep,
+    values_of,
+)
 
 ROTORS = [("uh60a", False), ("uh60a", True), ("gazelle", False)]
 HEAVY = make_design(mu=0.2, mass_kg=10900.0)
@@ -33,7 +41,9 @@ def test_power_follows_its_trend_along_a_slider(rotor: str, bending: bool, name:
     ("twist", np.arange(-18.0, -15.9, 0.25)), ("mass_kg", np.arange(10_850.0, 11_000.0, 25.0)),
     ("altitude_m", np.arange(1_900.0, 2_200.0, 50.0)),
 ])  # fmt: skip
-def test_power_follows_its_trend_where_a_twentieth_of_the_disk_stalls(name: str, values: np.ndarray):
+def test_power_follows_its_trend_where_a_twentieth_of_the_disk_stalls(
+    name: str, values: np.ndarray
+):
     found = sweep(HEAVY, name, values)
     assert np.isfinite(found.power).all()
     assert found.jumps.max() < 0.5
@@ -77,7 +87,9 @@ def test_power_begins_at_nought_with_pitch_at_n_per_rev(name: str, per_rev: int)
     still = solve(make_design(mu=0.2)).require()
     for phase in (0, 90):
         one, other = (
-            solve(make_design(mu=0.2, **cast(Any, {name: f"{per_rev}:0.01:{phase + turn}"})), still).power.total
+            solve(
+                make_design(mu=0.2, **cast(Any, {name: f"{per_rev}:0.01:{phase + turn}"})), still
+            ).power.total
             for turn in (0, 180)
         )
         assert abs(0.5 * (one + other) - still.power.total) < 10.0  # [W]
@@ -85,7 +97,8 @@ def test_power_begins_at_nought_with_pitch_at_n_per_rev(name: str, per_rev: int)
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    ("mass", "mu"), [(10_900.0, 0.2), (8_322.0, 0.1), (9_500.0, 0.3), (7_500.0, 0.35), (10_300.0, 0.25)]
+    ("mass", "mu"),
+    [(10_900.0, 0.2), (8_322.0, 0.1), (9_500.0, 0.3), (7_500.0, 0.35), (10_300.0, 0.25)],
 )
 def test_no_slider_beats_the_search(mass: float, mu: float):
     design = make_design(mu=mu, mass_kg=mass)
@@ -100,9 +113,13 @@ def test_no_slider_beats_the_search(mass: float, mu: float):
     for k, parameter in enumerate(concept.parameters):
         for times in (-12, -4, -2, -1, 1, 2, 4, 12):
             values = best.copy()
-            values[k] = np.clip(best[k] + times * steps[parameter.unit], parameter.low, parameter.high)
+            values[k] = np.clip(
+                best[k] + times * steps[parameter.unit], parameter.low, parameter.high
+            )
             moved = solve(concept.apply(design, values), start=None)
-            assert not moved.converged or moved.power.total >= segments.best.power * (1.0 - TOLERANCE)
+            assert not moved.converged or moved.power.total >= segments.best.power * (
+                1.0 - TOLERANCE
+            )
 
 
 @pytest.mark.nightly

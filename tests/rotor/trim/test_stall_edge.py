@@ -25,7 +25,9 @@ class TestSectionWithoutStall:
         one, other = self.TABLE(alpha, mach), self.WITHOUT(alpha, mach)
         assert_allclose(other.cl, one.cl, rtol=1e-12, atol=1e-14)
         assert_allclose(other.cd, one.cd, rtol=1e-12)
-        without, own = (np.asarray(table.moment(alpha, mach)) for table in (self.WITHOUT, self.TABLE))
+        without, own = (
+            np.asarray(table.moment(alpha, mach)) for table in (self.WITHOUT, self.TABLE)
+        )
         assert_allclose(without, own, atol=1e-14)
 
     def test_beyond_it_the_normal_force_rises_nearly_as_in_attached_flow_and_drag_stays(self):
@@ -44,7 +46,8 @@ class TestSectionWithoutStall:
 
     def test_it_separates_no_further_than_where_stall_begins(self):
         onset, own = stall_onset(self.WITHOUT), stall_onset(self.TABLE)
-        assert_allclose(onset.numbers[SLOPE], own.numbers[SLOPE], rtol=1e-12)  # Attached flow is the same.
+        # Attached flow is the same.
+        assert_allclose(onset.numbers[SLOPE], own.numbers[SLOPE], rtol=1e-12)
         steps = np.arange(-50, 51) + 360  # Nodes to ±25° from zero lift, half a degree apart.
         assert onset.tables[steps, :13, 0, 0, 0].min() > STALLED
         assert own.tables[steps, :13, 0, 0, 0].min() < 0.1
@@ -66,7 +69,9 @@ def test_where_nothing_stalls_it_costs_nothing():
     design = make_design(mu=0.1, mass_kg=7000.0)
     own = solve(design).require()
     assert own.stalled_area == 0.0
-    assert solve(with_switches(design, ("stall",)), own).power.total == pytest.approx(own.power.total, rel=1e-4)
+    assert solve(with_switches(design, ("stall",)), own).power.total == pytest.approx(
+        own.power.total, rel=1e-4
+    )
 
 
 @pytest.mark.slow

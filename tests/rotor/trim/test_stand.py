@@ -27,7 +27,9 @@ TRIMS = {
 }  # fmt: skip
 
 
-def bench(name: str, mu: float = 0.2, inflow: str = "pitt-peters", precone: float | None = None) -> Design:
+def bench(
+    name: str, mu: float = 0.2, inflow: str = "pitt-peters", precone: float | None = None
+) -> Design:
     trim, stand = TRIMS[name]
     design = make_design(mu=mu, inflow=inflow, trim=trim, stand=stand)
     models = replace(design.models, elements=20, azimuths=48)
@@ -58,10 +60,17 @@ def test_the_wind_tunnel_finds_the_trim_of_flight(inflow: str, same_course: Wake
 def test_given_controls_return_the_trim_they_came_from():
     tunnel = solve(bench("tunnel-thrust")).require()
     state = tunnel.controls
-    given = {name: getattr(state, name) for name in ("shaft_tilt", "collective", "cyclic_1c", "cyclic_1s")}
+    given = {
+        name: getattr(state, name)
+        for name in ("shaft_tilt", "collective", "cyclic_1c", "cyclic_1s")
+    }
     stand = Stand(**given, flapping="free")
     models = replace(tunnel.design.models, trim="controls")
-    back = solve(replace(tunnel.design, models=models, condition=replace(tunnel.design.condition, stand=stand)))
+    back = solve(
+        replace(
+            tunnel.design, models=models, condition=replace(tunnel.design.condition, stand=stand)
+        )
+    )
     assert_allclose(back.require().controls.array(), state.array(), atol=1e-9)
     assert_allclose(back.power.shaft, tunnel.power.shaft, rtol=1e-8)
 
@@ -69,7 +78,9 @@ def test_given_controls_return_the_trim_they_came_from():
 def test_hover_at_a_collective_and_without_thrust():
     thrust = solve(bench("tunnel-thrust", 0.0)).require()
     stand = Stand(collective=thrust.controls.collective)
-    given = solve(replace(thrust.design, condition=replace(thrust.design.condition, stand=stand))).require()
+    given = solve(
+        replace(thrust.design, condition=replace(thrust.design.condition, stand=stand))
+    ).require()
     assert_allclose(given.ct, thrust.ct, rtol=1e-10)
     assert_allclose(given.power.shaft, thrust.power.shaft, rtol=1e-10)
     # σ C_d0/8 with the drag near zero lift, and a little from the twist: between 0.006 and 0.016.
@@ -100,7 +111,9 @@ def test_a_gimbal_keeps_its_coning_and_passes_no_moment():
     assert_allclose(solution.controls.coning, math.radians(1.5))
     disk, lift = Analysis(solution).linear.problem.disk, Analysis(solution).linear.elements.fz
     moment = disk.r * disk.dr @ lift
-    assert_allclose(2.0 / len(disk.psi) * moment @ np.array([disk.cos, disk.sin]).T, 0.0, atol=1e-12)
+    assert_allclose(
+        2.0 / len(disk.psi) * moment @ np.array([disk.cos, disk.sin]).T, 0.0, atol=1e-12
+    )
     assert solution.hub_moment.size < 1e-3
 
 
@@ -111,7 +124,9 @@ def test_negative_thrust_mirrors_positive(inflow: str, mu: float):
 
     def at(sign: float) -> Solution:
         stand = {"collective_deg": 3.0 * sign, "shaft_tilt_deg": 4.0 * sign, "flapping": "free"}
-        made = make_design(rotor="knight-hefner-3", mu=mu, inflow=inflow, trim="controls", stand=stand)
+        made = make_design(
+            rotor="knight-hefner-3", mu=mu, inflow=inflow, trim="controls", stand=stand
+        )
         return solve(replace(made, models=replace(made.models, blade_weight=False))).require()
 
     up, down = at(1.0), at(-1.0)
@@ -133,6 +148,9 @@ def test_a_thrust_beyond_the_rotor_fails_with_a_sentence():
 def test_speed_and_mass_are_wider_on_a_stand():
     design = bench("tunnel-thrust", 0.7)
     assert design.condition.advance_ratio == 0.7
-    assert make_design(mass_kg=5.0, trim="wind-tunnel", stand={"ct_over_sigma": 0.07}).condition.mass == 5.0
+    assert (
+        make_design(mass_kg=5.0, trim="wind-tunnel", stand={"ct_over_sigma": 0.07}).condition.mass
+        == 5.0
+    )
     with pytest.raises(ValueError, match=r"outside 0…0\.6"):
         make_design(mu=0.7)

@@ -34,4 +34,6 @@ def test_forward_curve_is_indicative():
     assert 0.03 < above[1] < 0.12
     assert (np.abs(above[4:]) < 0.08).all()
     assert flight[-1] > theirs[-1]
-    assert (thesis < flight).all()  # One incompressible polar with free transition: less drag everywhere.
+    assert (
+        thesis < flight
+    ).all()  # One incompressible polar with free transition: less drag everywhere.

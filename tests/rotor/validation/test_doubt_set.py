@@ -28,7 +28,9 @@ def test_the_band_holds_for_two_rotors_in_three():
         _, likely, _ = coverage((point, shipped_sizes()) for point in points if point.kind == kind)
         assert 0.55 <= likely <= 0.88, kind
     assert 0.55 <= coverage((point, left[point.rotor]) for point in points)[1] <= 0.88
-    assert shipped_sizes() == pytest.approx(fitted(points), abs=0.01), "python -m tests.tools.bands fits them anew"
+    assert shipped_sizes() == pytest.approx(fitted(points), abs=0.01), (
+        "python -m tests.tools.bands fits them anew"
+    )
 
 
 @pytest.mark.slow
@@ -46,9 +48,9 @@ def test_the_fit_finds_the_sizes_that_made_the_errors():
     for k in range(2000):
         induced = rng.uniform(0.2, 0.8)
         band = math.hypot(sizes[0] * induced, sizes[1] * (1.0 - induced), 0.02)
-        points += [PointAndBand(f"{k}", "hover", band * rng.normal(), induced, 1.0 - induced, 0.02)] * (
-            1 + 39 * (k < 5)
-        )
+        points += [
+            PointAndBand(f"{k}", "hover", band * rng.normal(), induced, 1.0 - induced, 0.02)
+        ] * (1 + 39 * (k < 5))
     assert fitted(points) == pytest.approx(sizes, rel=0.1)
     found = coverage((point, sizes) for point in points)
     assert found == pytest.approx([0.01 * part for part in COVERAGES], abs=0.03)

@@ -26,7 +26,13 @@ from rotor.validation.airloads import (
     measured_curves,
     wave_amplitude,
 )
-from rotor.validation.flown import LEAST_CORRELATION, flown_angles, flown_powers, shape_errors, tail_pitch
+from rotor.validation.flown import (
+    LEAST_CORRELATION,
+    flown_angles,
+    flown_powers,
+    shape_errors,
+    tail_pitch,
+)
 from rotor.validation.hart2 import height, measured_vortices
 from rotor.validation.trust import rms
 
@@ -34,7 +40,9 @@ from rotor.validation.trust import rms
 def test_harmonics_of_a_known_curve_at_uneven_points():
     """0.3 + 0.2 cos ψ − 0.1 sin 4ψ, with a 20/rev that is left out."""
     psi = np.sort(np.random.default_rng(3).uniform(0.0, 2.0 * math.pi, 400))
-    found = harmonics(psi, 0.3 + 0.2 * np.cos(psi) - 0.1 * np.sin(4 * psi) + 0.02 * np.cos(20 * psi), 10)
+    found = harmonics(
+        psi, 0.3 + 0.2 * np.cos(psi) - 0.1 * np.sin(4 * psi) + 0.02 * np.cos(20 * psi), 10
+    )
     wanted = np.zeros(21)
     wanted[[0, 1, 14]] = 0.3, 0.2, -0.1
     assert_allclose(found, wanted, atol=0.006)
@@ -83,7 +91,10 @@ def test_a_blade_whose_root_moves_at_3_per_rev():
     Nothing fitted: normal force 9 % small and 23° late, twist of the tip 6 % large and 2° early.
     """
     mine = found("hart2-airloads")
-    for quantity, r, size, angle in (("cn_m2", 0.87, 0.15, 30.0), ("tip_twist_deg", 1.0, 0.15, 10.0)):
+    for quantity, r, size, angle in (
+        ("cn_m2", 0.87, 0.15, 30.0),
+        ("tip_twist_deg", 1.0, 0.15, 10.0),
+    ):
         moved, base = mine["MN", quantity, r], mine["BL", quantity, r]
         theirs = wave_amplitude(moved.measured_waves, 3) - wave_amplitude(base.measured_waves, 3)
         ours = wave_amplitude(moved.waves, 3) - wave_amplitude(base.waves, 3)
@@ -160,13 +171,19 @@ def solutions() -> dict[str, Solution]:
 def test_amplitude_and_phase_of_a_known_curve(solutions: dict[str, Solution]):
     """2 cos(3ψ − 40°) beside the computed twist: amplitude, phase, and the difference by the law of cosines."""
     psi = np.linspace(0.0, 2.0 * math.pi, 30, endpoint=False)
-    curve = replace(CURVES["MN", "tip_twist_deg"], psi=psi, values=2.0 * np.cos(3.0 * psi - math.radians(40.0)))
+    curve = replace(
+        CURVES["MN", "tip_twist_deg"], psi=psi, values=2.0 * np.cos(3.0 * psi - math.radians(40.0))
+    )
     one = agreement(curve, solutions["MN"])
     assert_allclose(one.amplitude(3, measured=True), 2.0)
     assert_allclose(one.phase_deg(3, measured=True), 40.0)
     assert_allclose(one.late_deg(3), one.phase_deg(3) - 40.0)
     assert_allclose(one.ratio(3), 0.5 * one.amplitude(3) - 1.0)
-    third = 4.0 + one.amplitude(3) ** 2 - 4.0 * one.amplitude(3) * math.cos(math.radians(one.late_deg(3)))
+    third = (
+        4.0
+        + one.amplitude(3) ** 2
+        - 4.0 * one.amplitude(3) * math.cos(math.radians(one.late_deg(3)))
+    )
     assert_allclose(one.miss(3), 0.5 * math.sqrt(third))
 
 
@@ -186,7 +203,9 @@ def test_measured_motion_and_vortices_are_those_of_the_source():
 
 def test_height_of_a_vortex_that_no_inflow_moves():
     """Then it rises along a straight line: β0 above the hub at the edge, −µ_z t above that."""
-    course = WakeCourse(0.15, -0.0113, 0.0, coning=0.04, flap_1c=0.0, flap_1s=0.0, core=(1e-4, 1e-6))
+    course = WakeCourse(
+        0.15, -0.0113, 0.0, coning=0.04, flap_1c=0.0, flap_1s=0.0, core=(1e-4, 1e-6)
+    )
     x, y = np.array([-0.8, 0.0, 0.6]), np.array([0.6, 0.0, -0.7])
     age = (x + np.sqrt(1.0 - y * y)) / 0.15
     assert_allclose(height(course, x, y), 0.04 + 0.0113 * age, atol=1e-12)
@@ -199,7 +218,9 @@ def test_moment_of_the_pitch_rate(solutions: dict[str, Solution]):
     i = int(np.argmin(np.abs(disk.r - 0.87)))
     theta = harmonics(psi, disk.theta[i], 8)
     order = np.arange(1, 9)
-    rate = order * theta[9:] @ np.cos(np.outer(order, psi)) - order * theta[1:9] @ np.sin(np.outer(order, psi))
+    rate = order * theta[9:] @ np.cos(np.outer(order, psi)) - order * theta[1:9] @ np.sin(
+        np.outer(order, psi)
+    )
     speed = disk.r[i] + solution.design.condition.advance_ratio * np.sin(psi)
     mach = 2.0 * 109.01 / 342.2
     by_hand = -0.25 * math.pi * 0.0605 * rate * speed * mach**2
@@ -225,7 +246,11 @@ def test_measured_loads_are_those_of_the_figure():
     for one in curves:
         assert len(one.psi) == 90
         assert abs(one.values.mean()) < 0.01 * np.ptp(one.values)
-    for mu, n, size, phase in ((0.15, 1, 1630.0, 48.0), (0.37, 2, 1340.0, 76.0)):  # By a fit to all 252 and 135 points.
+    # By a fit to all 252 and 135 points.
+    for mu, n, size, phase in (
+        (0.15, 1, 1630.0, 48.0),
+        (0.37, 2, 1340.0, 76.0),
+    ):
         wave = next(one for one in curves if one.case.conditions["mu"] == mu).waves
         found = complex(wave[n], wave[n + 10])
         assert_allclose(abs(found), size, rtol=0.03)
@@ -250,5 +275,6 @@ def test_load_is_that_of_the_moment_nose_up_on_the_blade():
     )
     by_hand = structure.control_stiffness * (around - root[0]) / structure.pitch_horn
     assert np.ptp(ours) > 1000.0
-    assert_allclose(ours, by_hand, atol=0.12 * np.ptp(ours))  # The bearing's share in two modes only.
+    # The bearing's share in two modes only.
+    assert_allclose(ours, by_hand, atol=0.12 * np.ptp(ours))
     assert np.corrcoef(ours, by_hand)[0, 1] > 0.98

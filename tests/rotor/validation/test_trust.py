@@ -26,13 +26,19 @@ def tables(path: Path) -> list[list[str]]:
     text = re.sub(r"<sub>(.*?)</sub>", r"_\1", path.read_text(encoding="utf-8"))
     text = re.sub(r"!\[.*?\]\(.*?\)", "", text.replace("\\|", "¦"))
     text = re.sub(r"\[(.*?)\]\(.*?\)", r"\1", text)
-    return [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines() if line.startswith("| ")]
+    return [
+        [cell.strip() for cell in line.split("|")[1:-1]]
+        for line in text.splitlines()
+        if line.startswith("| ")
+    ]
 
 
 def as_printed(text: str) -> str:
     """A shown error with the page's signs and spaces."""
     raised = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
-    text = re.sub(r"(\d\.\d)e-0*(\d+)", lambda found: f"{found[1]} · 10⁻{found[2].translate(raised)}", text)
+    text = re.sub(
+        r"(\d\.\d)e-0*(\d+)", lambda found: f"{found[1]} · 10⁻{found[2].translate(raised)}", text
+    )
     text = re.sub(r"1e-0*(\d+)", lambda found: "10⁻" + found[1].translate(raised), text)
     return text.replace("-", "−").replace(" %", "\u00a0%")
 
@@ -75,12 +81,16 @@ def test_pages_show_the_shipped_rows():
 @pytest.mark.parametrize("name", ["knight-hefner-3", "xv15-forward-15deg", "uh60a-constants"])
 def test_pictures_are_drawn_from_the_same_numbers(name: str):
     one = SETS[name]()
-    for drawn, file in ((svg(one.charts[0]), f"{name}.svg"), (small_svg(one.charts[0]), f"{name}-small.svg")):
+    for drawn, file in (
+        (svg(one.charts[0]), f"{name}.svg"),
+        (small_svg(one.charts[0]), f"{name}-small.svg"),
+    ):
         shipped = (DOCS / "validation" / file).read_text(encoding="utf-8")
         assert_allclose(places(drawn), places(shipped), atol=0.5)
 
 
-@pytest.mark.parametrize("name", [name for name in MEASURED if name != "uh60a-hover"])  # That page has C_P/σ.
+# That page has C_P/σ.
+@pytest.mark.parametrize("name", [name for name in MEASURED if name != "uh60a-hover"])
 def test_every_measured_point_stands_in_the_table_beside_its_page(name: str):
     measured = load_set(name)
     rows = csv_rows(DOCS / "validation" / f"{name}.csv")

@@ -29,7 +29,9 @@ def test_sets_are_complete(name: str):
         assert {*measured.given, measured.quantity} <= set(point)
         assert all(math.isfinite(value) for value in point.values())
         assert measured.scatter_of(point) > 0.0
-    assert measured.indicative == (measured.tolerance is None and measured.tolerance_percent is None)
+    assert measured.indicative == (
+        measured.tolerance is None and measured.tolerance_percent is None
+    )
     assert any(map(measured.counts, measured.points))
 
 
@@ -39,12 +41,18 @@ def test_points_as_the_reports_print_them():
     assert (hover["ct"], hover["cp"]) == (0.010104, 0.000913)
     forward = load_set("xv15-forward-15deg").points[2]
     assert (forward["mu"], forward["cq_over_sigma"]) == (0.17, 0.0062)
-    knight = next(point for point in load_set("knight-hefner-4").points if point["collective_deg"] == 8.0)
+    knight = next(
+        point for point in load_set("knight-hefner-4").points if point["collective_deg"] == 8.0
+    )
     assert_allclose(2.0 * knight["ct"], 0.00981)
     castles = next(point for point in load_set("castles-gray-4ft").points if point["ct"] == 0.00411)
     assert (castles["cq_above_zero"], castles["collective_deg"]) == (0.000229, 8.30)
     # Report 515: mu 0.303 (V cos a), a 3.9 deg, CL 0.1397, CD 0.0199, 147.3 rpm.
-    near = [point for point in load_set("pca2").points if abs(point["mu"] - 0.303 / math.cos(math.radians(3.9))) < 1e-4]
+    near = [
+        point
+        for point in load_set("pca2").points
+        if abs(point["mu"] - 0.303 / math.cos(math.radians(3.9))) < 1e-4
+    ]
     pca2 = next(point for point in near if abs(point["shaft_tilt_deg"] + 3.9) < 1e-9)
     assert_allclose(pca2["cp_drag"], 0.0199 * pca2["mu"] ** 3 / 2.0, rtol=2e-3)
     assert_allclose(pca2["tip_mach"], 147.3 * math.pi / 30.0 * 6.858 / 340.3, rtol=1e-3)
@@ -73,7 +81,8 @@ def test_forward_flight_of_the_xv15_by_uniform_inflow(name: str):
     for point in measured.points:
         design = design_at(measured, point)
         simple, full = (
-            solve(replace(design, models=replace(design.models, inflow=inflow))).require().cq / design.rotor.solidity
+            solve(replace(design, models=replace(design.models, inflow=inflow))).require().cq
+            / design.rotor.solidity
             for inflow in ("uniform", design.models.inflow)
         )
         target = 0.0004 if upright else 0.05 * point["cq_over_sigma"]
@@ -93,16 +102,26 @@ def power_law(name: str, least: float, ct: float) -> tuple[float, float, float]:
 def test_the_measured_effect_of_twist_has_the_sign_of_the_table_it_is_counted_from():
     """The shipped changes are those of the tables; from table V, with measured C_T, twist costs power."""
     effect = load_set("castles-gray-twist-effect")
-    tables = [("castles-gray", 0.0, point["ct"], point["change_percent"], point["scatter"]) for point in effect.points]
-    for plain, least, ct, change, scatter in (*tables, ("castles-gray-hover", 0.0018, 0.004, 9.8, 3.6)):
+    tables = [
+        ("castles-gray", 0.0, point["ct"], point["change_percent"], point["scatter"])
+        for point in effect.points
+    ]
+    for plain, least, ct, change, scatter in (
+        *tables,
+        ("castles-gray-hover", 0.0018, 0.004, 9.8, 3.6),
+    ):
         twisted, other = power_law("castles-gray-twisted", 0.0, ct), power_law(plain, least, ct)
         ratio = 100.0 * math.exp(twisted[0] - other[0])
-        assert_allclose((ratio - 100.0, ratio * math.sqrt(twisted[1] + other[1])), (change, scatter), atol=0.05)
+        assert_allclose(
+            (ratio - 100.0, ratio * math.sqrt(twisted[1] + other[1])), (change, scatter), atol=0.05
+        )
     assert "would cost 9.8 ± 3.6 % at 0.004" in effect.note
     for point in compare(effect, "annulus").points:
         computed = (point.computed or {})["change_percent"]
         assert point.error_percent == pytest.approx(computed - point.measured["change_percent"])
-        assert point.within_scatter == (abs(point.error_percent or 0.0) <= point.measured["scatter"])
+        assert point.within_scatter == (
+            abs(point.error_percent or 0.0) <= point.measured["scatter"]
+        )
 
 
 @pytest.mark.parametrize("name", ["hover", "4ft", "tapered"])
@@ -112,9 +131,17 @@ def test_torque_of_castles_and_gray_where_thrust_was_measured(name: str):
     The least thrust at Mach 0.45 takes torque: counted from the zero at Mach 0.34 it gave some.
     """
     measured = load_set(f"castles-gray-{name}")
-    assert 100.0 * power_law(measured.name, 0.002, 0.004)[2] == pytest.approx(measured.scatter_percent, abs=0.05)
+    assert 100.0 * power_law(measured.name, 0.002, 0.004)[2] == pytest.approx(
+        measured.scatter_percent, abs=0.05
+    )
     points = compare(measured, "annulus").points
-    assert 2.0 < np.mean([point.error_percent or math.inf for point in points if point.given["ct"] > 0.002]) < 11.0
+    assert (
+        2.0
+        < np.mean(
+            [point.error_percent or math.inf for point in points if point.given["ct"] > 0.002]
+        )
+        < 11.0
+    )
     assert all(point.computed and point.computed["cq_above_zero"] > 0.0 for point in points)
 
 
@@ -132,12 +159,21 @@ def test_lift_along_a_stubby_blade_is_met_at_the_measured_thrust_but_not_at_the_
     for row, pitch, lower in zip(page.rows[1:], (5.0, 8.0, 12.0), less, strict=True):
         points = [point for point in level.points if point.given["collective_deg"] == pitch]
         assert f"Collective {pitch:g}°: C_T, {len(points)} points" in row.what
-        assert row.shown.endswith(f"worst {max(point.error_percent or 0.0 for point in points):+.1f} %")
+        assert row.shown.endswith(
+            f"worst {max(point.error_percent or 0.0 for point in points):+.1f} %"
+        )
         found = [
-            {"collective_deg": pitch - lower, "tip_mach": p.given["tip_mach"], "ct": p.measured["ct"]} for p in points
+            {
+                "collective_deg": pitch - lower,
+                "tip_mach": p.given["tip_mach"],
+                "ct": p.measured["ct"],
+            }
+            for p in points
         ]
         again = compare(replace(level.measured, points=tuple(found))).points
-        assert np.mean([point.error_percent or math.inf for point in again]) == pytest.approx(0.0, abs=2.0)
+        assert np.mean([point.error_percent or math.inf for point in again]) == pytest.approx(
+            0.0, abs=2.0
+        )
 
 
 def test_model_rotor_of_knight_and_hefner_needs_more_than_momentum_theory_gives():
@@ -151,14 +187,24 @@ def test_model_rotor_of_knight_and_hefner_needs_more_than_momentum_theory_gives(
 def test_validate_as_json(answer: Callable[..., Any]):
     sets = ("knight-hefner-3", "castles-gray-twist-effect")
     first, second = answer("validate", *sets, "--inflow", "annulus")["sets"]
-    assert {"report", "inflow", "quantity", "worst_percent", "target", "note", "why_missed"} <= set(first)
-    assert [first[key] for key in ("name", "rotor", "kind")] == ["knight-hefner-3", "knight-hefner-3", "hover"]
+    assert {"report", "inflow", "quantity", "worst_percent", "target", "note", "why_missed"} <= set(
+        first
+    )
+    assert [first[key] for key in ("name", "rotor", "kind")] == [
+        "knight-hefner-3",
+        "knight-hefner-3",
+        "hover",
+    ]
     assert (first["fitted"], first["passed"], second["passed"]) == (False, False, None)
     for point in first["points"]:
-        error = 100.0 * (point["computed"]["cq_above_zero"] / point["measured"]["cq_above_zero"] - 1.0)
+        error = 100.0 * (
+            point["computed"]["cq_above_zero"] / point["measured"]["cq_above_zero"] - 1.0
+        )
         assert_allclose(point["error_percent"], error)
     judged = [point["error_percent"] for point in first["points"] if point["judged"]]
-    assert_allclose(first["rms_percent"], math.sqrt(sum(error**2 for error in judged) / len(judged)))
+    assert_allclose(
+        first["rms_percent"], math.sqrt(sum(error**2 for error in judged) / len(judged))
+    )
 
 
 def test_validate_of_any_set_and_its_page(
@@ -225,7 +271,11 @@ def test_points_that_do_not_trim_are_counted_and_decide_only_where_a_target_is_s
         for k, point in enumerate(measured.points):
             trims, judged = k not in lost, measured.counts(point)
             computed, said, error = (point, "", 0.0) if trims else (None, "Not trimmed.", None)
-            points.append(ComparedPoint(point, point, computed, said, error, trims, judged, trims or not judged))
+            points.append(
+                ComparedPoint(
+                    point, point, computed, said, error, trims, judged, trims or not judged
+                )
+            )
         return Comparison(measured, "annulus", tuple(points))
 
     for lost, code, words in (

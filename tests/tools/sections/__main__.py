@@ -7,16 +7,28 @@ from rotor.airfoil.c81 import format_c81
 from rotor.airfoil.polars import COLUMNS, PolarSet, read_polars
 from rotor.support.assets import asset_path
 from rotor.support.terminal import run_command
-from tests.tools.sections.recipes import RECIPES, make_deck, recipe_of, run_thesis_polar, run_trip_polars
+from tests.tools.sections.recipes import (
+    RECIPES,
+    make_deck,
+    recipe_of,
+    run_thesis_polar,
+    run_trip_polars,
+)
 from tests.tools.sections.xfoil import XfoilError
 
 
 def main(argv: list[str] | None = None) -> int:
     """Build one section."""
-    parser = argparse.ArgumentParser(prog="python -m tests.tools.sections", description="Bundled section data.")
+    parser = argparse.ArgumentParser(
+        prog="python -m tests.tools.sections", description="Bundled section data."
+    )
     parser.add_argument("action", choices=("build",))
     parser.add_argument("name", metavar="NAME", help=", ".join(RECIPES))
-    parser.add_argument("--from-polars", action="store_true", help="start from the bundled raw polars, without XFOIL")
+    parser.add_argument(
+        "--from-polars",
+        action="store_true",
+        help="start from the bundled raw polars, without XFOIL",
+    )
     parser.add_argument("--out", metavar="DIR", help="where to write (default: the bundled data)")
     args = parser.parse_args(argv)
 

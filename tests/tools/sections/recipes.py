@@ -89,9 +89,13 @@ RECIPES = {
         ),
     ),
     # The S-61's chord, 0.464 m.
-    "naca0012": Recipe("NACA0012 XFOIL TUNNEL SLOPE", 10.80e6, MeasuredSlope(_textbook(0.12), 10.80e6)),
+    "naca0012": Recipe(
+        "NACA0012 XFOIL TUNNEL SLOPE", 10.80e6, MeasuredSlope(_textbook(0.12), 10.80e6)
+    ),
     # The R22's chord, 0.189 m. No public table with Mach was found.
-    "naca63a015": Recipe("NACA63A015 XFOIL TUNNEL SLOPE", 4.40e6, MeasuredSlope(_textbook(0.15), 4.40e6)),
+    "naca63a015": Recipe(
+        "NACA63A015 XFOIL TUNNEL SLOPE", 4.40e6, MeasuredSlope(_textbook(0.15), 4.40e6)
+    ),
     # The XV-15's chord, 0.356 m, root to tip; no table was read off.
     "naca64208": Recipe("NACA64-208 XFOIL TRIP5 WRAP", 8.28e6, _textbook(0.08)),
     "naca64118": Recipe("NACA64-118 XFOIL TRIP5 WRAP", 8.28e6, _textbook(0.18)),
@@ -125,7 +129,9 @@ RECIPES = {
     "naca23012tab": Recipe("NACA23012 TAB HART2 TABLE", 6.29e6, _naca23012(6.29e6)),
     "naca23012tab-model": Recipe("NACA23012 TAB MODEL HART2", 2.82e6, _naca23012(2.82e6)),
     # Knight and Hefner's model rotor, whose polar they measured at the Reynolds number of its tip.
-    "naca0015re242k": Recipe("NACA0015 RE 242000 MEASURED", 1.21e6, _textbook(0.15), (0.2,), "measured"),
+    "naca0015re242k": Recipe(
+        "NACA0015 RE 242000 MEASURED", 1.21e6, _textbook(0.15), (0.2,), "measured"
+    ),
 }
 
 
@@ -154,7 +160,11 @@ def run_trip_polars(name: str, report: Callable[[str], None]) -> PolarSet:
         raise XfoilError(f"the polar of {name} was measured: add --from-polars")
     contour = load_contour(name)
     per_mach, lowest = recipe.reynolds_per_mach, recipe.lowest_alpha_deg
-    below = f", and those below {lowest:g} deg, where {recipe.lowest_reason}" if recipe.lowest_reason else ""
+    below = (
+        f", and those below {lowest:g} deg, where {recipe.lowest_reason}"
+        if recipe.lowest_reason
+        else ""
+    )
     header = (
         f"{name}: polars computed with XFOIL 6.99 by this project from the coordinates in {name}.contour",
         f"transition fixed at {TRIP:g} chord on both sides, Ncrit 9, Re = {per_mach:.4g} * Mach",
@@ -172,7 +182,9 @@ def run_thesis_polar(report: Callable[[str], None]) -> PolarSet:
         "free transition, Ncrit 9, Re 3.68e6, Mach 0.3: assumed, the document states none of them",
         "angles where no paneling converged are left out",
     )
-    return PolarSet(header, (run_polar(load_contour("sc1095"), THESIS_CASE, THESIS_ALPHA_DEG, report),))
+    return PolarSet(
+        header, (run_polar(load_contour("sc1095"), THESIS_CASE, THESIS_ALPHA_DEG, report),)
+    )
 
 
 def make_deck(name: str, polars: PolarSet) -> C81Deck:
@@ -190,7 +202,11 @@ def make_deck(name: str, polars: PolarSet) -> C81Deck:
 def compare_decks(new: C81Deck, old: C81Deck) -> Difference:
     """Largest differences of `new` from `old`; raises ValueError when their knots differ."""
     for a, b in ((new.cl, old.cl), (new.cd, old.cd)):
-        if a.values.shape != b.values.shape or np.any(a.alpha_deg != b.alpha_deg) or np.any(a.mach != b.mach):
+        if (
+            a.values.shape != b.values.shape
+            or np.any(a.alpha_deg != b.alpha_deg)
+            or np.any(a.mach != b.mach)
+        ):
             raise ValueError("the decks have different angles or Machs: rebuild the shipped one")
     near = np.flatnonzero(np.abs(old.cl.alpha_deg) <= BLEND_END_DEG)
     lift = np.abs(new.cl.values - old.cl.values)[near]

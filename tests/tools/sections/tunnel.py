@@ -134,7 +134,13 @@ def ramp(x: Array, onset: float, width: float = RISE_WIDTH) -> Array:
 
 
 def tunnel_polar(
-    mach: float, alpha: Array, cl: Array, cd: Array, cm: Array, traits: TunnelTraits, native_mach: float = BASE_MACH
+    mach: float,
+    alpha: Array,
+    cl: Array,
+    cd: Array,
+    cm: Array,
+    traits: TunnelTraits,
+    native_mach: float = BASE_MACH,
 ) -> tuple[Array, Array, Array]:
     """(cl, cd, cm) at `mach` from XFOIL's polar at `native_mach`, which is `mach` itself where XFOIL is used natively.
 
@@ -148,9 +154,15 @@ def tunnel_polar(
     from_centre = degrees - traits.centre_deg
     x = mach + MACH_PER_DEGREE * np.hypot(from_centre, ROUNDING_DEG)
 
-    friction = (max(mach, 1e-3) / native_mach) ** FRICTION_REYNOLDS_POWER if mach > native_mach else 1.0
+    friction = (
+        (max(mach, 1e-3) / native_mach) ** FRICTION_REYNOLDS_POWER if mach > native_mach else 1.0
+    )
     section_drag = (1.0 - shocks) * cd + shocks * _held_beyond(own_stall, degrees, cd)
-    attached = traits.drag_level * friction * with_lost_suction(alpha, lift + lost_at_low_speed, lift, section_drag)
+    attached = (
+        traits.drag_level
+        * friction
+        * with_lost_suction(alpha, lift + lost_at_low_speed, lift, section_drag)
+    )
     drag = attached + shocks * DRAG_SLOPE * ramp(x, traits.onset)
     return lift, drag, _moment(mach, degrees, x, cm, traits, native_mach, shocks)
 
@@ -188,22 +200,34 @@ def _lift(
     from_centre = degrees - shift - traits.centre_deg
     x = min(mach, LIFT_LOSS_MACH) + MACH_PER_DEGREE * np.hypot(from_centre, ROUNDING_DEG)
     side = np.tanh(from_centre / ROUNDING_DEG)
-    after_shock = potential - side * shocks * LIFT_LOSS_SLOPE * ramp(x, traits.onset + LIFT_LOSS_AFTER)
+    after_shock = potential - side * shocks * LIFT_LOSS_SLOPE * ramp(
+        x, traits.onset + LIFT_LOSS_AFTER
+    )
     cap = float(np.interp(mach, _CAP_MACH, _CAP_CL)) * traits.cap_ratio
     lift = smooth_cap(after_shock, cap, traits.negative_cap, CAP_SHARPNESS)
     return lift, after_shock - lift
 
 
 def _moment(
-    mach: float, degrees: Array, x: Array, cm: Array, traits: TunnelTraits, native_mach: float, shocks: float
+    mach: float,
+    degrees: Array,
+    x: Array,
+    cm: Array,
+    traits: TunnelTraits,
+    native_mach: float,
+    shocks: float,
 ) -> Array:
     side = np.tanh((degrees - traits.centre_deg) / ROUNDING_DEG)
     held = max(min(mach, SLOPE_LIMIT_MACH), native_mach)
-    at_zero = float(np.interp(0.0, degrees, cm)) * math.sqrt((1.0 - native_mach**2) / (1.0 - held**2))
+    at_zero = float(np.interp(0.0, degrees, cm)) * math.sqrt(
+        (1.0 - native_mach**2) / (1.0 - held**2)
+    )
     pocket = POCKET_SLOPE * ramp(x, traits.onset - POCKET_BEFORE, POCKET_WIDTH)
     broken = BREAK_SLOPE * ramp(x, traits.onset + BREAK_AFTER, BREAK_WIDTH)
     at_zero += traits.moment_shift
-    subsonic = (1.0 - shocks) * (cm + traits.moment_shift) + shocks * (at_zero + side * (pocket - broken))
+    subsonic = (1.0 - shocks) * (cm + traits.moment_shift) + shocks * (
+        at_zero + side * (pocket - broken)
+    )
     tuck = TUCK_OFFSET - TUCK_SIZE * np.tanh(degrees / TUCK_DEG)
     tuck = at_zero + tuck - side * TUCK_BREAK_SLOPE * ramp(x, traits.onset + TUCK_BREAK_AFTER)
     share = _smoothstep(mach, *TUCK_MACH)

@@ -26,7 +26,14 @@ _TRAP_SHIM = "void _gfortran_set_fpe(int mask) { (void)mask; }\n"
 _CPU_LIMIT = 40  # s of processor time, the same on a busy machine; a sweep takes 1 to 15 s; a hung one never ends.
 _TIME_LIMIT = 120.0  # s of wall-clock time, for a process that waits without using the processor.
 _LIMITED = ("sh", "-c", f'ulimit -t {_CPU_LIMIT} && exec "$@"', "sh")
-_PANELINGS = ((160, 100), (200, 200), (240, 300), (180, 300), (220, 300))  # (panels, iterations), in this order.
+# (panels, iterations), in this order.
+_PANELINGS = (
+    (160, 100),
+    (200, 200),
+    (240, 300),
+    (180, 300),
+    (220, 300),
+)
 
 Row = tuple[float, float, float]
 
@@ -53,7 +60,9 @@ def require_xfoil() -> None:
             "install it (Debian: apt install xfoil xvfb) or rebuild with --from-polars"
         )
     if _compiler() is None and shutil.which("xvfb-run") is None:
-        raise XfoilError("xfoil needs a C compiler or xvfb-run to run without a screen: apt install xvfb, or gcc")
+        raise XfoilError(
+            "xfoil needs a C compiler or xvfb-run to run without a screen: apt install xvfb, or gcc"
+        )
 
 
 def _compiler() -> str | None:
@@ -84,14 +93,38 @@ def _shim_folder() -> tempfile.TemporaryDirectory[str] | None:
 
 
 def _sweep(
-    contour: Contour, case: XfoilCase, start: float, stop: float, step: float, panels: int, iterations: int
+    contour: Contour,
+    case: XfoilCase,
+    start: float,
+    stop: float,
+    step: float,
+    panels: int,
+    iterations: int,
 ) -> dict[float, Row]:
     """One XFOIL process marching from `start` to `stop` [deg]; the converged rows by angle, possibly none."""
-    commands = ["LOAD section.dat", "PPAR", f"N {panels}", "", "", "OPER", f"VISC {case.reynolds:.0f}"]
+    commands = [
+        "LOAD section.dat",
+        "PPAR",
+        f"N {panels}",
+        "",
+        "",
+        "OPER",
+        f"VISC {case.reynolds:.0f}",
+    ]
     commands += [f"MACH {case.mach:g}", "VPAR", f"N {case.n_crit:g}"]
     if case.trip is not None:
         commands += [f"XTR {case.trip:g} {case.trip:g}"]
-    commands += ["", f"ITER {iterations}", "PACC", "polar.txt", "", f"ASEQ {start:g} {stop:g} {step:g}", "", "QUIT", ""]
+    commands += [
+        "",
+        f"ITER {iterations}",
+        "PACC",
+        "polar.txt",
+        "",
+        f"ASEQ {start:g} {stop:g} {step:g}",
+        "",
+        "QUIT",
+        "",
+    ]
     environment, program = dict(os.environ), ["xvfb-run", "-a", "xfoil"]
     if (shim := _shim_folder()) is not None:
         commands = ["PLOP", "G F", "", *commands]  # Without a screen; only safe with the traps off.
@@ -116,7 +149,8 @@ def _run(call: list[str], commands: str, folder: str, environment: dict[str, str
         try:
             process.communicate(commands, timeout=_TIME_LIMIT)
         except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)  # The whole session: xvfb-run has children of its own.
+            # The whole session: xvfb-run has children of its own.
+            os.killpg(process.pid, signal.SIGKILL)
             return False
     return process.returncode == 0
 
@@ -148,7 +182,10 @@ def _gaps(missing: Sequence[float], step: float) -> list[tuple[float, float]]:
 
 
 def run_polar(
-    contour: Contour, case: XfoilCase, alpha_deg: Array, report: Callable[[str], None] = lambda _message: None
+    contour: Contour,
+    case: XfoilCase,
+    alpha_deg: Array,
+    report: Callable[[str], None] = lambda _message: None,
 ) -> Polar:
     """Polar of `contour` at the uniformly spaced angles `alpha_deg` [deg]; angles that never converge are left out.
 
@@ -165,7 +202,8 @@ def run_polar(
         sweeps = [(0.0, max(wanted)), (0.0, min(wanted))] if attempt == 0 else _gaps(missing, step)
         for inner, outer in sweeps:
             outward = np.sign(outer) if outer else 1.0
-            lead = 0.0 if attempt == 0 else outward * min(abs(inner), 2.0)  # Starts where it converges.
+            # Starts where it converges.
+            lead = 0.0 if attempt == 0 else outward * min(abs(inner), 2.0)
             found = _sweep(contour, case, inner - lead, outer, outward * step, panels, iterations)
             for alpha, row in found.items():
                 rows.setdefault(alpha, row)

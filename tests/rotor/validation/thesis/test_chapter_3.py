@@ -53,7 +53,8 @@ def test_figures_3_5_and_3_6(report: Make):
 def test_figure_3_7(report: Make):
     """Hover power converges with elements, with an order between 1 and the midpoint rule's 2 and a half."""
     one = report("3.7")
-    assert one.verdict is Agreement.NO_REFERENCE  # The number is in the figure, which is not available.
+    # The number is in the figure, which is not available.
+    assert one.verdict is Agreement.NO_REFERENCE
     for preset in ("thesis", "flight-linear"):
         assert one.numbers[f"{preset}_error_at_40"] < 5e-3
         assert 1.0 < one.numbers[f"{preset}_order"] < 3.0
@@ -142,9 +143,12 @@ def test_figure_3_11(report: Make):
     for preset in ("thesis", "flight"):
         assert -18.0 < one.numbers[f"{preset}_optimum"] < -13.0
         # Drag rise by angle of attack in the sections of the flight preset moves the optimum to more twist: −18°.
-        assert 0.0 <= one.numbers[f"{preset}_cost_of_13_5"] < {"thesis": 3e-3, "flight": 6e-3}[preset]
+        assert (
+            0.0 <= one.numbers[f"{preset}_cost_of_13_5"] < {"thesis": 3e-3, "flight": 6e-3}[preset]
+        )
         assert one.numbers[f"{preset}_cost_of_0"] > 0.05
-    for made in one.tables:  # At the thesis' mass and above, more twist helps down to −12°; lighter rotors want less.
+    # At the thesis' mass and above, more twist helps down to −12°; lighter rotors want less.
+    for made in one.tables:
         heavy = column(made, "mass_kg") > 8000.0
         powers = np.array([column(made, f"linear_{rate}")[heavy] for rate in (0, -4, -8, -12)])
         assert (np.diff(powers, axis=0) < 0.0).all()
@@ -204,7 +208,9 @@ def test_keys_1987(report: Make):
     """More twist helps in hover in every model; at 330 km/h propulsive force decides, in every model alike."""
     one = report("keys 1987")
     assert one.verdict is Agreement.DIFFERS
-    assert all(-0.024 < one.numbers[f"{name}_hover"] < 0.0 for name in ("thesis", "thesis-wake", "flight"))
+    assert all(
+        -0.024 < one.numbers[f"{name}_hover"] < 0.0 for name in ("thesis", "thesis-wake", "flight")
+    )
     for name in one.tables[0].columns[1:]:
         assert (np.diff(column(one.tables[0], name)) < 0.0).all()
     assert one.numbers["usual_low"] < one.numbers["usual_force"] < one.numbers["usual_high"]

@@ -10,7 +10,14 @@ from rotor.validation.thesis import optimum_twist as side_by_side
 from rotor.validation.thesis.ladder import linear_optimum
 from rotor.validation.thesis.optimum_twist import FIGURES, optimum_figure
 from rotor.validation.thesis.report import Agreement, Report
-from rotor.validation.thesis.runs import CONCEPTS, SC1095_DECKS, VARIANTS, best, comparable_kw, variant
+from rotor.validation.thesis.runs import (
+    CONCEPTS,
+    SC1095_DECKS,
+    VARIANTS,
+    best,
+    comparable_kw,
+    variant,
+)
 
 Make = Callable[[str], Report]
 QUICK = (0.0, 0.15, 0.30)
@@ -23,7 +30,9 @@ def test_variants():
         assert variant(name).preset == name
     assert variant("thesis").models.inflow != variant("thesis-wake").models.inflow == "lifting-line"
     assert variant("flight").models.inflow != variant("flight-linear").models.inflow
-    powers = [solve(variant(name, mu=0.0)).require().power.total for name in ("flight", "flight-linear")]
+    powers = [
+        solve(variant(name, mu=0.0)).require().power.total for name in ("flight", "flight-linear")
+    ]
     assert_allclose(powers[1], powers[0], rtol=2e-3)
 
 
@@ -33,14 +42,17 @@ _EACH_NIGHT = {"4.4", "4.6", "4.7", "4.10"}
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
-    "number", [pytest.param(one, marks=[pytest.mark.nightly] * (one in _EACH_NIGHT)) for one in FIGURES]
+    "number",
+    [pytest.param(one, marks=[pytest.mark.nightly] * (one in _EACH_NIGHT)) for one in FIGURES],
 )
 def test_optimum(number: str):
     """No reference; converged; optimum within its band; never worse than the baseline or one linear twist."""
     one = optimum_figure(number, QUICK)
     concept = FIGURES[number][0]
     assert one.verdict is Agreement.NO_REFERENCE
-    assert [row[:2] for row in one.tables[-1].rows] == [(name, mu) for name in VARIANTS for mu in QUICK]
+    assert [row[:2] for row in one.tables[-1].rows] == [
+        (name, mu) for name in VARIANTS for mu in QUICK
+    ]
     for name in VARIANTS:
         for mu in QUICK:
             found = best(name, concept, mu, QUICK)
@@ -55,7 +67,9 @@ def test_optimum(number: str):
 @pytest.mark.slow
 def test_linear_twist_is_largest_in_hover():
     for name in VARIANTS:
-        assert best(name, "linear", 0.0, QUICK).values[0] < best(name, "linear", 0.15, QUICK).values[0]
+        assert (
+            best(name, "linear", 0.0, QUICK).values[0] < best(name, "linear", 0.15, QUICK).values[0]
+        )
 
 
 def test_optimum_decreases_steadily_with_the_wake():
@@ -86,8 +100,11 @@ def test_figure_4_13():
     for name in VARIANTS:
         assert 0.0 <= numbers[f"{name}_three_over_linear"] < 0.01
         assert all(numbers[f"{name}_{concept}_largest"] > 0.0 for concept in CONCEPTS)
-    for mu in QUICK:  # A second airfoil adds what it adds on equal data, not the difference of two polars.
-        one, decks, two = (best("thesis", key, mu, QUICK) for key in ("two 50-50", SC1095_DECKS, "two airfoils"))
+    # A second airfoil adds what it adds on equal data, not the difference of two polars.
+    for mu in QUICK:
+        one, decks, two = (
+            best("thesis", key, mu, QUICK) for key in ("two 50-50", SC1095_DECKS, "two airfoils")
+        )
         gain = comparable_kw("thesis", "two airfoils", mu, QUICK) / one.power_kw
         assert_allclose(gain, two.power_kw / decks.power_kw, rtol=1e-12)
         assert 0.9 < gain < 1.05

@@ -34,7 +34,9 @@ def test_figure_5_7(report: Make):
 def test_figure_5_10(report: Make):
     """Up at positive voltage, three times as far as down at −500 V; the worked example's tips within 10 %."""
     one = alone(report, "5.10")
-    for (name, up, down), expected in zip(one.tables[0].rows, (0.92, 1.66, 2.84, 4.16), strict=True):
+    for (name, up, down), expected in zip(
+        one.tables[0].rows, (0.92, 1.66, 2.84, 4.16), strict=True
+    ):
         assert one.numbers[str(name)] == pytest.approx(expected, rel=0.1)
         assert float(up) == pytest.approx(-3.0 * float(down))
 
@@ -53,7 +55,10 @@ def test_table_5_2(report: Make):
     one = alone(report, "table 5.2")
     table = one.tables[0]
     gross, net = (
-        [float(str(row[table.columns.index(f"{name} kW")]).partition(" ± ")[0]) for row in table.rows]
+        [
+            float(str(row[table.columns.index(f"{name} kW")]).partition(" ± ")[0])
+            for row in table.rows
+        ]
         for name in ("gross", "net")
     )
     assert one.numbers["rows"] == 24.0

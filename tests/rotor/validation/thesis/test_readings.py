@@ -16,7 +16,9 @@ from rotor.validation.thesis.twist_effect import hover_optimum
 from tests.solved import assert_same_trim
 
 
-@pytest.mark.parametrize("section", [name for name in readings.SECTIONS if name.startswith(THESIS_NAME)])
+@pytest.mark.parametrize(
+    "section", [name for name in readings.SECTIONS if name.startswith(THESIS_NAME)]
+)
 def test_a_reading_is_its_own_polar_and_range(section: str):
     """The table of each name follows the points of its own polar, and ends where its own fit ends."""
     reading = parse_reading(section)
@@ -33,7 +35,9 @@ def test_the_preset_is_one_of_the_readings():
     preset = readings.reading_design(THESIS_READING.name, "inflow", -8.0, 0.2)
     assert preset == make_design(preset="thesis", twist="linear:-8", mu=0.2)
     before = readings.reading_design(THESIS_NAME, "lift", -8.0, 0.2)
-    assert before == make_design(preset="thesis", twist="linear:-8", mu=0.2, loss_on="lift", airfoils=THESIS_NAME)
+    assert before == make_design(
+        preset="thesis", twist="linear:-8", mu=0.2, loss_on="lift", airfoils=THESIS_NAME
+    )
 
 
 @pytest.mark.slow
@@ -49,7 +53,8 @@ def test_the_preset_is_the_reading_that_holds_most():
     assert_allclose(radius.optimum_deg, hover_optimum("thesis")[0], atol=0.2)
     root = make_design(preset="thesis").rotor.blade.root_cutout
     assert_allclose(tip.optimum_deg, radius.optimum_deg * (1.0 - root), atol=0.2)
-    assert_allclose(tip.excess[0], torque.excess[0], rtol=1e-9)  # In hover torque and parts are the same.
+    # In hover torque and parts are the same.
+    assert_allclose(tip.excess[0], torque.excess[0], rtol=1e-9)
     assert_allclose(radius.overtakes, 0.18, atol=0.005)
 
 
@@ -99,7 +104,9 @@ def test_the_ladder_begins_at_thesis_and_ends_at_flight(mu: float):
 def test_each_rung_changes_something(name: str):
     """Each is a change of its own, by its power at µ 0.35 in the ladder."""
     place = tuple(RUNGS).index(name)
-    before, after = (solve(rung_design(tuple(RUNGS)[: place + k], 0.35)).require().power.total for k in (0, 1))
+    before, after = (
+        solve(rung_design(tuple(RUNGS)[: place + k], 0.35)).require().power.total for k in (0, 1)
+    )
     assert abs(after / before - 1.0) > 1e-4
 
 
@@ -112,6 +119,7 @@ def test_the_best_twist_is_a_least_and_moving_saves_something():
             continue
         best = linear_optimum(on, 0.35, None)  # Its band by trims of their own, without the search.
         edges = [
-            solve(rung_design(on, 0.35, f"linear:{rate:.9f}")).require().power.total / 1e3 for rate in best.band_deg
+            solve(rung_design(on, 0.35, f"linear:{rate:.9f}")).require().power.total / 1e3
+            for rate in best.band_deg
         ]
         assert_allclose(edges, 1.001 * best.power_kw, rtol=2e-4)

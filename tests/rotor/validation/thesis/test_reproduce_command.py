@@ -45,9 +45,20 @@ def test_one_figure(tmp_path: Path, capsys: pytest.CaptureFixture[str]):
     assert all(len(row) == len(rows[0]) for row in rows)
 
 
-def test_figures_are_in_the_order_of_the_document_without_repeats(tmp_path: Path, printed: Callable[..., str]):
+def test_figures_are_in_the_order_of_the_document_without_repeats(
+    tmp_path: Path, printed: Callable[..., str]
+):
     assert find_entry("Figure 3.11") is find_entry("3.11")
-    asked = ["--table", "5.1", "--figure", "Table 3.2", "--figure", "table 5.1", "--figure", "table 3.1"]
+    asked = [
+        "--table",
+        "5.1",
+        "--figure",
+        "Table 3.2",
+        "--figure",
+        "table 5.1",
+        "--figure",
+        "table 3.1",
+    ]
     said = printed("reproduce", str(tmp_path), *asked)
     results = json.loads((tmp_path / "results.json").read_text(encoding="utf-8"))
     found = [(one["title"], one["verdict"]) for one in results]
@@ -64,6 +75,8 @@ def test_rows_and_verdicts_of_the_trust_page_are_reproduced(report: Callable[[st
     for one in sets:
         for row in one.rows:
             still_true(row)
-    assert {row.what for row in statements.rows} == shipped.keys()  # None that is slow is checkable.
+    assert {
+        row.what for row in statements.rows
+    } == shipped.keys()  # None that is slow is checkable.
     for row in statements.rows:
         assert shipped[row.what] == row.shown, row.what
