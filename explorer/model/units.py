@@ -92,7 +92,7 @@ METRE_PER_SECOND, KILOMETRE_PER_HOUR, KNOT = (
     Unit("km/h", 1.0 / 3.6),
     Unit("kt", units.KNOT),
 )
-KILOGRAM, TONNE, POUND = Unit("kg", 1.0), Unit("t", 1e3), Unit("lb", 0.45359237)
+TONNE, POUND = Unit("t", 1e3), Unit("lb", 0.45359237)
 METRE, FOOT = Unit("m", 1.0), Unit("ft", 0.3048)
 FOOT_PER_MINUTE = Unit("ft/min", 0.3048 / 60.0)
 
