@@ -151,6 +151,16 @@ def test_no_modules_import_each_other_in_a_circle():
     assert len(order) == len(MODULES)
 
 
+def test_no_class_name_occurs_twice():
+    """Private ones included: whoever searches for a class finds one."""
+    places = dict[str, list[str]]()
+    for path in MODULES:
+        for node in nodes(path):
+            if isinstance(node, ast.ClassDef):
+                places.setdefault(node.name, []).append(f"{name(path)}:{node.lineno}")
+    assert not {one: where for one, where in places.items() if len(where) > 1}
+
+
 def test_no_module_is_long():
     """None is over 800 lines."""
     for path in MODULES:
