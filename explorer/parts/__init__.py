@@ -1,7 +1,7 @@
 """What Python tells the scripts of the page: one value a part, each a frozen dataclass of this package.
 
-`Bridge.set` sends them, as JSON; `explorer/web/parts.d.ts` is made from them, and the scripts are checked against it.
-This package imports only words and numbers of `rotor`.
+`Bridge.set` sends them, as JSON. `make lint` writes their types to `explorer/web/parts.d.ts` and checks the scripts
+against them. This package imports only words and numbers of `rotor`.
 """
 
 from collections.abc import Mapping, Sequence

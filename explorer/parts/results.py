@@ -11,7 +11,7 @@ Kind = Literal["", "good", "bad"]
 
 
 @dataclass(frozen=True)
-class Status:
+class LineStatus:
     """The end of the line: whether the answer can be trusted."""
 
     kind: Literal["converged", "care", "problem"]
@@ -77,7 +77,7 @@ class LinePart:
     """
 
     pieces: Sequence[LinePiece]
-    status: Status
+    status: LineStatus
     named_sliders: Sequence[str] = ()
     problem: str = ""
     held: bool = False

@@ -6,7 +6,7 @@ from typing import Any
 
 from explorer.model.inputs import LAWS, TWISTS
 from explorer.model.units import number
-from explorer.parts.results import LinePart, LinePiece, Status
+from explorer.parts.results import LinePart, LinePiece, LineStatus
 from explorer.text.design_words import AS_BUILT
 from explorer.text.line import (
     WIDE,
@@ -66,7 +66,7 @@ def line(now: PageState) -> LinePart:
             else " …"
         )
         pieces.append(LinePiece(words, "problem"))
-        return LinePart(pieces, Status("problem", "", problem), named, problem, now.ui.held)
+        return LinePart(pieces, LineStatus("problem", "", problem), named, problem, now.ui.held)
     doubts = [(task, *now.latest(task)) for task in shown_doubt(now)]
     band, known = (doubts[0][1], doubts[0][2]) if doubts else (None, True)
     pieces += power_pieces(state.solution, units, band, known)

@@ -5,7 +5,7 @@ from typing import Any
 
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
-from explorer.parts.results import HandPart, PowerPart, PowerShare, Status
+from explorer.parts.results import HandPart, LineStatus, PowerPart, PowerShare
 from explorer.text.line import coverage_words
 from explorer.text.readout import banded, fineness, ideal_induced, part_change, part_titles
 from explorer.text.status import cautions, validated
@@ -64,7 +64,7 @@ def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart
     )
 
 
-def status(state: SessionState, units: Units) -> Status:
+def status(state: SessionState, units: Units) -> LineStatus:
     """The end of the line: trimmed, or engines, stalled area, number of caveats; the title: how well validated."""
     reasons = cautions(state.solution, state.pinned)
     stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
@@ -88,8 +88,8 @@ def status(state: SessionState, units: Units) -> Status:
         words = "1 note" if len(reasons) == 1 else f"{len(reasons)} notes"
     else:
         title = f"{state.solution.message} {record.sentence} Click to see how far to trust it."
-        return Status("converged", "trimmed", title)
-    return Status("care", words, title)
+        return LineStatus("converged", "trimmed", title)
+    return LineStatus("care", words, title)
 
 
 def station_doubt(now: PageState) -> tuple[PanelWork, ...]:

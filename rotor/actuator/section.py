@@ -16,7 +16,7 @@ import scipy
 
 from rotor.airfoil.contour import leading_edge_index, load_contour, resample
 from rotor.dynamics.structure import BendingStructure, glass, structure_data, titanium
-from rotor.dynamics.thin_wall import Layer, Panel, build_section, torsional_stiffness
+from rotor.dynamics.thin_wall import Layer, WallPanel, build_section, torsional_stiffness
 from rotor.support.arrays import Array, read_only
 
 BladeKind = Literal["retrofit", "new"]
@@ -139,7 +139,7 @@ def calibrate(spec: SectionSpec, placement: Placement | None, active: Layer | No
 
 def panels(
     spec: SectionSpec, wall: float, placement: Placement | None, active: Layer | None
-) -> tuple[Panel, ...]:
+) -> tuple[WallPanel, ...]:
     """Walls of thickness `wall` [m], from the upper trailing edge around the nose: the inside is on the left."""
     data = structure_data()["section"]
     retrofit = spec.host.kind == "retrofit"
@@ -149,7 +149,7 @@ def panels(
     rear_skin = _glass(1e-3 * float(data["aft_skin_mm"])) if retrofit else front_skin
     edges = {0.0, end, *((web,) if retrofit else ()), *(placement.chord if placement else ())}
     cuts = sorted(edge for edge in edges if edge <= end)
-    panels: list[Panel] = []
+    panels: list[WallPanel] = []
     for side in ("upper", "lower"):
         for front, rear in pairwise(cuts):
             in_front = not retrofit or rear <= web
@@ -158,13 +158,13 @@ def panels(
                 layers = (*layers, active)
             points = skin(spec, side, front, rear)
             panels.append(
-                Panel(
+                WallPanel(
                     points if side == "lower" else points[::-1], layers, (1,) if in_front else (2,)
                 )
             )
     if retrofit:
-        panels.append(Panel(web_line(spec, web), front_skin, (1, -2)))
-    panels.append(Panel(web_line(spec, end), rear_skin, (2,) if retrofit else (1,)))
+        panels.append(WallPanel(web_line(spec, web), front_skin, (1, -2)))
+    panels.append(WallPanel(web_line(spec, end), rear_skin, (2,) if retrofit else (1,)))
     return tuple(panels)
 
 

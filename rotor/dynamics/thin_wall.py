@@ -112,7 +112,7 @@ def wall_of(layers: tuple[Layer, ...]) -> Wall:
 
 
 @dataclass(frozen=True, eq=False)
-class Panel:
+class WallPanel:
     """A stretch of wall with one laminate."""
 
     points: Array
@@ -157,7 +157,7 @@ class SectionResponse:
     """θ' [rad/m]."""
 
 
-def build_section(panels: tuple[Panel, ...]) -> WallSection:
+def build_section(panels: tuple[WallPanel, ...]) -> WallSection:
     """A section of straight wall elements, with the areas of its cells."""
     walls = [wall_of(panel.layers) for panel in panels]
     cells = max(abs(cell) for panel in panels for cell in panel.cells)

@@ -12,7 +12,7 @@ from rotor.dynamics.structure import glass
 from rotor.dynamics.thin_wall import (
     Layer,
     Material,
-    Panel,
+    WallPanel,
     build_section,
     induced_twist_rate,
     torsional_stiffness,
@@ -110,9 +110,9 @@ def test_two_cells_by_finite_elements():
     ends = (29, sum(len(part) for part in upper) + 19 + 25)
     answer = analyse(*with_web(*closed_wall(line, layers), ends, Layer(METAL, wall, 0.0)))
 
-    def panel(side: str, a: float, b: float, layer: Layer, cell: int, on: bool) -> Panel:
+    def panel(side: str, a: float, b: float, layer: Layer, cell: int, on: bool) -> WallPanel:
         points = skin(spec, side, a, b, 60)
-        return Panel(
+        return WallPanel(
             points if side == "lower" else points[::-1],
             (layer, active) if on else (layer,),
             (cell,),
@@ -124,8 +124,8 @@ def test_two_cells_by_finite_elements():
             *(panel(side, 0.0, 0.05, metal, 1, False) for side in ("upper", "lower")),
             *(panel(side, 0.05, web, metal, 1, True) for side in ("upper", "lower")),
             *(panel(side, web, 0.8, aft, 2, True) for side in ("upper", "lower")),
-            Panel(web_line(spec, web), (metal,), (1, -2)),
-            Panel(web_line(spec, 0.8), (aft,), (2,)),
+            WallPanel(web_line(spec, web), (metal,), (1, -2)),
+            WallPanel(web_line(spec, 0.8), (aft,), (2,)),
         )
     )
     assert_allclose(answer.torsional, torsional_stiffness(section), rtol=0.015)

@@ -21,7 +21,7 @@ from rotor.dynamics.structure import uh60a_structure
 from rotor.dynamics.thin_wall import (
     Layer,
     Material,
-    Panel,
+    WallPanel,
     WallSection,
     build_section,
     free_strain_in_wall_axes,
@@ -116,7 +116,9 @@ def test_a_free_wall_has_its_free_strain():
 
 
 def ring(panel_points: np.ndarray, layers: tuple[Layer, ...]) -> WallSection:
-    return build_section((Panel(np.concatenate([panel_points, panel_points[:1]]), layers, (1,)),))
+    return build_section(
+        (WallPanel(np.concatenate([panel_points, panel_points[:1]]), layers, (1,)),)
+    )
 
 
 def rectangle(width: float, height: float) -> np.ndarray:
@@ -150,15 +152,15 @@ def test_batho_two_cells_by_hand():
     layer, whole = (Layer(METAL, t, 0.0),), first + second
     section = build_section(
         (
-            Panel(
+            WallPanel(
                 np.array([(first, height), (0.0, height), (0.0, 0.0), (first, 0.0)]), layer, (1,)
             ),
-            Panel(
+            WallPanel(
                 np.array([(first, 0.0), (whole, 0.0), (whole, height), (first, height)]),
                 layer,
                 (2,),
             ),
-            Panel(np.array([(first, 0.0), (first, height)]), layer, (1, -2)),
+            WallPanel(np.array([(first, 0.0), (first, height)]), layer, (1, -2)),
         )
     )
     assert_allclose(torsional_stiffness(section), METAL.g12 * (a1 * q[0] + a2 * q[1]), rtol=1e-9)

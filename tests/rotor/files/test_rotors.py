@@ -14,7 +14,7 @@ from numpy.testing import assert_allclose
 from rotor import make_design, solve
 from rotor.files.design_file import design_from_record
 from rotor.files.rotor_file import read_aircraft, shipped_aircraft
-from rotor.support.assets import SHIPPED_ROTORS, asset_path
+from rotor.support.assets import MEASURED_ROTORS, SHIPPED_ROTORS, asset_path
 from tests.solved import SAME
 from tests.tools.ideal_bound import find_bound
 
@@ -34,10 +34,16 @@ def test_shipped_rotors():
     assert_allclose(shipped_aircraft("s61").rotor.tip_speed / 0.3048, 659.0, atol=0.5)
 
 
-@pytest.mark.parametrize("file", [*(f"{key}.toml" for key in SHIPPED_ROTORS), "rotors/hart2.toml"])
+ROTOR_FILES = (
+    *(f"{key}.toml" for key in SHIPPED_ROTORS),
+    *(f"rotors/{key}.toml" for key in MEASURED_ROTORS),
+)
+
+
+@pytest.mark.parametrize("file", ROTOR_FILES)
 def test_every_number_has_a_source(file: str):
-    """Each `key = value` has a comment with a grade."""
-    without = ("name", "chord_r", "spans") if file == "uh60a.toml" else ("name", "r_m", "mass_kg_m")
+    """Each `key = value` has a comment with a grade. Stations have that of the values there."""
+    without = ("name", "chord_r", "twist_r", "r_m")
     for line in asset_path(file).read_text(encoding="utf-8").splitlines():
         if re.match(r"^\w+ = (?!\[$)", line) and not line.startswith(without):
             assert re.search(r"#\s+[PSDXRA]\b", line), line
