@@ -15,6 +15,7 @@ from rotor.support.markup import Content, Markup, tag
 from rotor.support.units import typographic
 from rotor.validation import MeasuredSet, TrustRow, sets_of, trust_rows
 from rotor.validation.airloads import PITCH_LINK, REPORTS
+from rotor.validation.compare import page_of
 from rotor.validation.flown import POWER_REPORTS
 from rotor.validation.trust import KINDS
 
@@ -156,7 +157,7 @@ def validated(solution: Solution) -> ValidationRecord:
     report = f"{measured.title}, {measured.report}"
     if row is None:
         sentence = _printed(
-            f"Not compared with this inflow model. Measured: {report}.", measured.note
+            f"Not compared with this inflow model. Measured: {report}.", measured.remarks
         )
         return ValidationRecord("not compared with this inflow", sentence, measured)
     outside = beyond(measured, solution)
@@ -169,7 +170,7 @@ def validated(solution: Solution) -> ValidationRecord:
         )
     if design.pitch_per_rev:
         parts.append("The test used collective and cyclic only.")
-    parts.append(measured.note)
+    parts.append(measured.remarks)
     size, error = (
         "within" if measured.name == _DIGITISED else "rms",
         0.0 if row.error is None else abs(row.error),
@@ -255,7 +256,8 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
 
 def row_of(measured: MeasuredSet, inflow: str) -> TrustRow | None:
     """The row of a set with an inflow model; None where that was not compared."""
-    rows = [row for row in trust_rows() if row.set == measured.name]
+    rows = [row for row in trust_rows() if row.set == page_of(measured.name)]
     if measured.name == _DIGITISED:
         return rows[0] if inflow == "annulus" else None
-    return next((row for row in rows if row.what.endswith(f", inflow {inflow}")), None)
+    own = [row for row in rows if row.what.startswith(f"{measured.title}: ")]
+    return next((row for row in own if row.what.endswith(f", inflow {inflow}")), None)

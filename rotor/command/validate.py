@@ -13,7 +13,16 @@ from rotor.support.table import LEFT, CellValue, Column, table
 from rotor.support.terminal import wrapped
 from rotor.support.user_input import check_known, make_folder
 from rotor.validation.airloads import REPORTS, CurveAgreement, airload_agreement
-from rotor.validation.compare import FIELDS, SETS, Comparison, compare, comparison_chart, load_set
+from rotor.validation.compare import (
+    FIELDS,
+    PAGES,
+    SETS,
+    Comparison,
+    compare,
+    comparison_chart,
+    load_set,
+    page_of,
+)
 from rotor.validation.flown import POWERS, FlownPower, flown_powers
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import InflowAgreement, inflow_agreement
@@ -21,14 +30,17 @@ from rotor.validation.page import SETS as TRUST_SETS
 from rotor.validation.page import write_set
 from rotor.validation.trust import description
 
-_OTHERS = [name for name in TRUST_SETS if name not in (*SETS, *FIELDS)]
+_OTHERS = [name for name in TRUST_SETS if name not in (*PAGES, *FIELDS)]
 """Sets of the trust page that are not points of a rotor on a stand."""
 
 
 def add_parser(commands: Any) -> None:
     parser = add_command(commands, "validate", run)
-    measured, more = ", ".join((*SETS, *FIELDS)), ", ".join(_OTHERS)
-    words = f"set of points: {measured} (default: all these), {more}"
+    measured, more = ", ".join((*PAGES, *FIELDS)), ", ".join(_OTHERS)
+    words = (
+        f"set of points: {measured} (default: all these), {more}; or one set of a report, "
+        "for example knight-hefner-3"
+    )
     parser.add_argument("sets", nargs="*", metavar="SET", help=words)
     parser.add_argument(
         "--inflow", metavar="NAME", help="inflow model (default: that of preset flight)"
@@ -49,11 +61,13 @@ def run(args: argparse.Namespace) -> int:
     """
     if args.plot:
         drawing_module()  # Fails before the trims if matplotlib is missing.
-    names = args.sets or [*SETS, *FIELDS]
-    known = dict.fromkeys((*SETS, *FIELDS, *TRUST_SETS))
+    names = args.sets or [*PAGES, *FIELDS]
+    known = dict.fromkeys((*PAGES, *FIELDS, *TRUST_SETS))
     for name in names:
-        check_known("set", name, known)
-    chosen = [load_set(name) for name in names if name not in (*_OTHERS, *FIELDS)]
+        if name not in SETS:
+            check_known("set", name, known)
+    parts = [part for name in names for part in PAGES.get(name, (name,))]
+    chosen = [load_set(part) for part in parts if part in SETS]
     comparisons: list[Comparison] = []
     for measured in chosen:
         comparison = compare(measured, args.inflow)
@@ -86,7 +100,8 @@ def run(args: argparse.Namespace) -> int:
     if args.plot:
         for comparison in comparisons:
             draw(comparison, Path(args.plot))
-    for name in names if args.page else ():
+    pages = dict.fromkeys(map(page_of, names))
+    for name in pages if args.page else ():
         page = write_set(TRUST_SETS[name](), make_folder(args.page))
         print(f"page: {page}", file=sys.stderr)
     return (
@@ -207,7 +222,7 @@ def report(comparison: Comparison) -> str:
         counted = sum(point.judged for point in lost)
         where = f"{counted} of them with a target" if counted else "none of them with a target"
         lines.append(f"{len(lost)} of {len(comparison.points)} points do not trim, {where}.")
-    lines += [wrapped(words) for words in (measured.note, comparison.why_missed) if words]
+    lines += [wrapped(words) for words in (measured.remarks, comparison.why_missed) if words]
     return "\n".join(lines)
 
 

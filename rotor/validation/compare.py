@@ -1,6 +1,7 @@
 """Sets of measured points, one file a set in `assets/measured/`, and the rotor trimmed at every point beside them.
 
-Each file has report, rotor, trim and scatter; the comparison gives rows and charts of the trust page.
+Each file has report, rotor, trim and scatter; the comparison gives rows and charts of the trust page. Sets of one
+report share a page.
 """
 
 import math
@@ -20,24 +21,35 @@ from rotor.support.chart import Axis, Chart, Line, Points, Series
 from rotor.support.user_input import check_known
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-from rotor.validation.trust import TrustRow, TrustSet
-
-_XV15 = ("xv15-hover", "xv15-forward-15deg", "xv15-forward-0deg", "xv15-forward-figure-18")
-_CASTLES_GRAY = [
-    f"castles-gray{which}"
-    for which in ("-hover", "-4ft", "-tapered", "", "-twisted", "-twist-effect")
-]
-_CARADONNA_TUNG = ("caradonna-tung-lift", "caradonna-tung")
-SETS = (
-    *_XV15,
-    "pca2",
-    "knight-hefner-3",
-    "knight-hefner-4",
-    *_CARADONNA_TUNG,
-    *_CASTLES_GRAY,
-    "uh60a-hover",
+from rotor.validation.trust import (
+    Kind,
+    SetDescription,
+    TrustRow,
+    TrustSet,
+    Verdict,
+    description,
 )
-"""Names of the sets, in the order in which they are shown."""
+
+PAGES: dict[str, tuple[str, ...]] = {
+    "xv15-hover": ("xv15-hover",),
+    "xv15-forward": ("xv15-forward-15deg", "xv15-forward-0deg", "xv15-forward-figure-18"),
+    "pca2": ("pca2",),
+    "knight-hefner": ("knight-hefner-3", "knight-hefner-4"),
+    "caradonna-tung-lift": ("caradonna-tung-lift",),
+    "caradonna-tung": ("caradonna-tung",),
+    "castles-gray": (
+        "castles-gray-hover",
+        "castles-gray-4ft",
+        "castles-gray-tapered",
+        "castles-gray-table-1",
+        "castles-gray-twisted",
+        "castles-gray-twist-effect",
+    ),
+    "uh60a-hover": ("uh60a-hover",),
+}
+"""Names of the sets on each page, in the order in which they are shown. A page has the kind of its first set."""
+SETS = tuple(name for sets in PAGES.values() for name in sets)
+"""Names of the sets."""
 FIELDS = ("2mrts-inflow", "hart2-airloads", "gazelle-airloads", "uh60a-pitch-link", "flown-power")
 """Names of the sets that are not single points with a scatter: `rotor.validation.inflow`, `airloads` and `flown`."""
 LABELS = {
@@ -76,7 +88,11 @@ class MeasuredSet:
     quantity: str
     """The column that is compared."""
     points: tuple[dict[str, float], ...]
+    part: str = ""
+    """What tells it from the other sets of its page; empty where there are none."""
     note: str = ""
+    page_note: str = ""
+    """What holds for every set of its page."""
     menu: str = ""
     """Short title, for a menu."""
     missed: str = ""
@@ -105,6 +121,11 @@ class MeasuredSet:
         return all(
             low - 1e-12 <= point[name] <= high + 1e-12 for name, (low, high) in self.judged.items()
         )
+
+    @property
+    def remarks(self) -> str:
+        """Its own note, then that of its page."""
+        return f"{self.note} {self.page_note}".strip()
 
     @property
     def unit(self) -> str:
@@ -144,10 +165,19 @@ def sets_of(rotor: str) -> tuple[MeasuredSet, ...]:
     return tuple(measured for measured in sets if "r" not in measured.given)
 
 
+def page_of(name: str) -> str:
+    """The page of a set, which has its name unless several sets share the page."""
+    return next((page for page, sets in PAGES.items() if name in sets), name)
+
+
 @cache
 def load_set(name: str) -> MeasuredSet:
     """The set of that name; ValueError with one sentence for any other."""
+    if name in PAGES and name not in SETS:
+        raise ValueError(f"{name!r} has several sets: use one of {', '.join(PAGES[name])}")
     check_known("set", name, SETS)
+    page = page_of(name)
+    shared = description(page).text if len(PAGES[page]) > 1 else ()
     record: dict[str, Any] = dict(toml_asset(f"measured/{name}.toml"))
     columns: dict[str, list[float]] = record.pop("points")
     rows = zip(*columns.values(), strict=True)
@@ -156,6 +186,7 @@ def load_set(name: str) -> MeasuredSet:
         given=tuple(record.pop("given")),
         judged={key: (low, high) for key, (low, high) in record.pop("judged", {}).items()},
         points=tuple(dict(zip(columns, map(float, values), strict=True)) for values in rows),
+        page_note=" ".join(shared),
         **record,
     )
 
@@ -266,7 +297,7 @@ class Comparison:
             "worst_percent": self.worst_percent,
             "target": rows.target or None,
             "passed": self.passed,
-            "note": rows.note,
+            "note": rows.remarks,
             "why_missed": self.why_missed,
             "fitted": False,
         }
@@ -302,32 +333,97 @@ def compare_point(measured: MeasuredSet, point: dict[str, float], base: Design) 
 
 
 def measured_set(name: str) -> TrustSet:
-    """A set of measured points for the trust page; every one is trimmed here."""
-    comparisons = [
-        compare(load_set(name)),
-        *(compare(load_set(name), inflow) for inflow in ALSO.get(name, ())),
-    ]
-    measured, rows = comparisons[0].measured, tuple(map(_row, comparisons))
-    text, by_pitch = [_constant(measured), measured.note], ()
+    """A page of measured points for the trust page; every one is trimmed here."""
+    words = _description(name)
+    parts = [_part(words, each) for each in PAGES[name]]
+    rows = [row for part in parts for row in part.rows]
+    charts = [comparison_chart(part.comparisons) for part in parts]
+    error = _error([part.comparisons[0] for part in parts])
+    points = _points(parts)
+    if len(parts) == 1:
+        compared = parts[0].comparisons[0].counted
+        return words.page(error, rows, charts, compared=compared, text=parts[0].text, points=points)
+    labels = [part.label(row) for part in parts for row in part.rows]
+    remarks = [f"- **{part.name}.** {' '.join(part.text)}" for part in parts if part.text]
+    text = (*words.text, "\n".join(remarks)) if remarks else words.text
+    return words.page(error, rows, charts, text=text, points=points, labels=labels)
+
+
+@dataclass(frozen=True)
+class _Part:
+    """One set of a page, compared with each inflow model that is shown."""
+
+    comparisons: list[Comparison]
+    rows: list[TrustRow]
+    text: tuple[str, ...]
+    """Paragraphs that hold for its rows alone."""
+
+    @property
+    def measured(self) -> MeasuredSet:
+        return self.comparisons[0].measured
+
+    @property
+    def name(self) -> str:
+        """What tells it from the other sets of its page, as a line begins."""
+        return f"{self.measured.part[:1].upper()}{self.measured.part[1:]}"
+
+    def label(self, row: TrustRow) -> str:
+        """The name of one of its rows beside those of other sets."""
+        return f"{self.name}: {row.what.removeprefix(f'{self.measured.title}: ')}"
+
+
+def _description(name: str) -> SetDescription:
+    """The words of a page; of a set with a page of its own they are those of the set."""
+    if len(PAGES[name]) > 1:
+        return description(name)
+    measured = load_set(PAGES[name][0])
+    test = "rotor/validation/test_validation.py::test_rows_of_the_trust_page"
+    return SetDescription(name, measured.title, "", measured.report, test)
+
+
+def _part(words: SetDescription, name: str) -> _Part:
+    """A set of the page that has these words, trimmed at every point."""
+    measured = load_set(name)
+    comparisons = [compare(measured)]
+    comparisons += [compare(measured, inflow) for inflow in ALSO.get(name, ())]
+    rows = [_row(words, comparison) for comparison in comparisons]
+    text = [_constant(measured), measured.note]
     if measured.given[0] == "collective_deg":
-        by_pitch, missing = zip(*_by_pitch(comparisons[0]), strict=True)
+        by_pitch, missing = zip(*_by_pitch(words, comparisons[0]), strict=True)
+        rows += by_pitch
         text.append(
             f"The measured thrust needs less collective, on average by {', '.join(missing)}."
         )
-    return TrustSet(
-        name=name,
-        title=measured.title,
-        compared=comparisons[0].counted,
-        error=rows[0].shown.partition(",")[0],
-        source=measured.report,
-        rows=(*rows, *by_pitch),
-        charts=(comparison_chart(comparisons),),
-        text=tuple(filter(None, text)),
-        points=_points(comparisons),
-    )
+    return _Part(comparisons, rows, tuple(filter(None, text)))
 
 
-def _by_pitch(comparison: Comparison) -> Iterator[tuple[TrustRow, str]]:
+def _error(comparisons: list[Comparison]) -> str:
+    """Errors of all sets of a page and its worst miss, `rms 7.2 to 8.8 %; worst miss: 3 blades, 8.8 %`."""
+    errors: dict[str, list[float]] = {}
+    for comparison in comparisons:
+        errors.setdefault(comparison.measured.unit, []).append(_rms(comparison))
+    text = f"rms {', '.join(_range(sizes, unit) for unit, sizes in errors.items())}"
+    missed = [comparison for comparison in comparisons if comparison.passed is False]
+    if len(comparisons) == 1 or not missed:
+        return text
+    worst = max(missed, key=_rms)
+    return f"{text}; worst miss: {worst.measured.part}, {_rms(worst):.1f} {worst.measured.unit}"
+
+
+def _range(sizes: list[float], unit: str) -> str:
+    """The least and the largest of some errors, `7.2 to 8.8 %`."""
+    if len(sizes) == 1:
+        return f"{sizes[0]:.1f} {unit}"
+    return f"{min(sizes):.1f} to {max(sizes):.1f} {unit}"
+
+
+def _rms(comparison: Comparison) -> float:
+    rms = comparison.rms_percent
+    assert rms is not None
+    return rms
+
+
+def _by_pitch(words: SetDescription, comparison: Comparison) -> Iterator[tuple[TrustRow, str]]:
     """Of each given collective its row, and how much lower a collective gives the measured thrust."""
     measured = comparison.measured
     at_thrust = compare(replace(measured, given=("ct", "tip_mach"), quantity="collective_deg"))
@@ -336,31 +432,25 @@ def _by_pitch(comparison: Comparison) -> Iterator[tuple[TrustRow, str]]:
         less = -float(np.mean([at_thrust.points[k].error_percent or math.nan for k in here]))
         part = replace(comparison, points=tuple(comparison.points[k] for k in here))
         yield (
-            _row(part, f"Collective {pitch:g}°: "),
+            _row(words, part, f"Collective {pitch:g}°: "),
             f"{0.01 * less * pitch:.1f}° ({less:.0f} %) at {pitch:g}°",
         )
 
 
-def _row(comparison: Comparison, where: str = "") -> TrustRow:
+def _row(words: SetDescription, comparison: Comparison, where: str = "") -> TrustRow:
     """The root mean square of the errors at the points that count."""
-    measured, rms = comparison.measured, comparison.rms_percent
-    assert rms is not None
-    return TrustRow(
-        set=measured.name,
-        kind="indicative" if measured.indicative else "validation",
-        what=f"{measured.title}: {where}{comparison.counted}, inflow {comparison.inflow}",
-        against=measured.report,
-        shown=f"rms {rms:.1f} {measured.unit}, worst {comparison.worst}",
-        error=rms / 100.0,
-        allowed=5e-3,
-        test="rotor/validation/test_validation.py::test_rows_of_the_trust_page",
+    measured = comparison.measured
+    rms = _rms(comparison)
+    kind: Kind = "indicative" if measured.indicative else "validation"
+    return replace(words, kind=kind).row(
+        f"{measured.title}: {where}{comparison.counted}, inflow {comparison.inflow}",
+        f"rms {rms:.1f} {measured.unit}, worst {comparison.worst}",
+        rms / 100.0,
+        5e-3,
         note=comparison.why_missed,
         target=measured.target,
-        verdict="no target"
-        if comparison.passed is None
-        else "met"
-        if comparison.passed
-        else "missed",
+        met=comparison.passed,
+        against=measured.report,
     )
 
 
@@ -371,7 +461,8 @@ def comparison_chart(comparisons: list[Comparison]) -> Chart:
     values = tuple(point[quantity] for point in measured.points)
     places = tuple(point[along] for point in measured.points)
     scatter = tuple(map(measured.scatter_of, measured.points))
-    series: list[Series] = [Points("measured", places, values, scatter=scatter)]
+    label = f"measured, {measured.part}" if measured.part else "measured"
+    series: list[Series] = [Points(label, places, values, scatter=scatter)]
     for k, comparison in enumerate(comparisons, start=1):
         computed = sorted(
             (point.given[along], point.computed[quantity])
@@ -394,31 +485,43 @@ def _constant(measured: MeasuredSet) -> str:
     return f"Constant at every point: {words}." if same else ""
 
 
-def _points(comparisons: list[Comparison]) -> tuple[tuple[str, ...], ...]:
-    """Every measured point beside the computed one, with what is not the same at all of them."""
-    measured, quantity = comparisons[0].measured, comparisons[0].measured.quantity
-    head = [*(LABELS[name] for name in measured.varied), "Measured", "Scatter"]
-    rows = [
-        [
-            *(f"{point[name]:.5g}" for name in (*measured.varied, quantity)),
-            f"{measured.scatter_of(point):.2g}",
-        ]
-        for point in measured.points
-    ]
-    for comparison in comparisons:
-        head += [f"Computed, {comparison.inflow}", f"Error [{measured.unit}], {comparison.inflow}"]
-        for row, point in zip(rows, comparison.points, strict=True):
-            computed = point.computed
-            row += (
-                [f"{computed[quantity]:.5g}", f"{point.error_percent:+.1f}"]
-                if computed
-                else ["no trim", ""]
-            )
-    if not measured.indicative:
-        head.append("Verdict")
-        for row, point in zip(rows, comparisons[0].points, strict=True):
-            row.append("no target" if not point.judged else "met" if point.passed else "missed")
-    return tuple(map(tuple, (head, *rows)))
+def _points(parts: list[_Part]) -> list[tuple[str, ...]]:
+    """Every measured point beside the computed one, with what is not the same at all points of one set."""
+    names = list(dict.fromkeys(name for part in parts for name in part.measured.varied))
+    has_target = any(not part.measured.indicative for part in parts)
+    lines = [line for part in parts for line in _lines(part, names, has_target)]
+    head = list(dict.fromkeys(column for line in lines for column in line))
+    return [tuple(head), *(tuple(line.get(column, "") for column in head) for line in lines)]
+
+
+def _lines(part: _Part, names: list[str], has_target: bool) -> Iterator[dict[str, str]]:
+    """The points of one set, by column."""
+    measured = part.measured
+    for k, point in enumerate(measured.points):
+        line: dict[str, str] = {}
+        if measured.part:
+            line["Set"] = measured.part
+        line |= {LABELS[name]: f"{point[name]:.5g}" for name in names if name in point}
+        line["Measured"] = f"{point[measured.quantity]:.5g}"
+        line["Scatter"] = f"{measured.scatter_of(point):.2g}"
+        for comparison in part.comparisons:
+            compared = comparison.points[k]
+            value = f"Computed, {comparison.inflow}"
+            error = f"Error [{measured.unit}], {comparison.inflow}"
+            line[value] = "no trim"
+            line[error] = ""
+            if compared.computed is not None:
+                line[value] = f"{compared.computed[measured.quantity]:.5g}"
+                line[error] = f"{compared.error_percent:+.1f}"
+        if has_target:
+            line["Verdict"] = _verdict(part.comparisons[0].points[k])
+        yield line
+
+
+def _verdict(point: ComparedPoint) -> Verdict:
+    if not point.judged:
+        return "no target"
+    return "met" if point.passed else "missed"
 
 
 def _base(measured: MeasuredSet, inflow: str | None) -> Design:

@@ -18,13 +18,13 @@ from rotor.support.markup import tag
 from rotor.support.user_input import csv_text, write_whole
 from rotor.validation import flown, hart2, stall_loops, uh60a, verification
 from rotor.validation.airloads import PITCH_LINK
-from rotor.validation.compare import SETS as MEASURED
+from rotor.validation.compare import PAGES as MEASURED
 from rotor.validation.compare import measured_set
 from rotor.validation.doubt import NAME as DOUBT_SET
 from rotor.validation.doubt import doubt_set
 from rotor.validation.inflow import SET as INFLOW_SET
 from rotor.validation.inflow import inflow_set
-from rotor.validation.trust import KINDS, VERDICTS, TrustRow, TrustSet
+from rotor.validation.trust import KINDS, VERDICTS, TrustRow, TrustSet, quantities_met
 
 SETS: dict[str, Callable[[], TrustSet]] = {
     **{name: partial(measured_set, name) for name in MEASURED},
@@ -129,7 +129,7 @@ def summary(sets: Sequence[TrustSet]) -> str:
         rows = [
             (
                 f"![]({FOLDER}/{data.name}-small.svg)", f"[{data.title}]({FOLDER}/{data.name}.md)",
-                _capital(data.compared), data.error, _verdict(data.verdict),
+                _capital(data.compared), data.error, _verdict_of_page(data),
             )
             for data in sets if data.rows[0].kind == kind
         ]  # fmt: skip
@@ -140,8 +140,9 @@ def summary(sets: Sequence[TrustSet]) -> str:
         "---\nhide-toc: true\n---",
         "# How far to trust the numbers",
         "Two things are fitted to these points: the wake path, to the tip vortices of HART II, and the sizes of the "
-        f"model errors in [bands](validation/doubt.md), to powers. {words}. For the uncertainty of a power and of the "
-        "best twist, see [uncertainty](guide/doubt.md).",
+        f"model errors in [bands](validation/doubt.md), to powers. {words}. A page is missed if one of its quantities "
+        "is; the tables count those that meet their target. A quantity is missed if one of the inflow models shown "
+        "misses it. For the uncertainty of a power and of the best twist, see [uncertainty](guide/doubt.md).",
         *parts,
         "## Not modelled",
         "\n".join(f"- {item}" for item in NOT_MODELLED),
@@ -152,7 +153,7 @@ def summary(sets: Sequence[TrustSet]) -> str:
 def set_page(data: TrustSet) -> str:
     """docs/validation/NAME.md."""
     kind = data.rows[0].kind
-    labels = [row.what.removeprefix(f"{data.title}: ") for row in data.rows]
+    labels = data.labels or [row.what.removeprefix(f"{data.title}: ") for row in data.rows]
     judged = kind == "document" or any(row.target for row in data.rows)
     remarks = [row.note for row in data.rows]
     short = all(0 < len(note) <= LONGEST for note in remarks) and 1 < len({*remarks}) == len(
@@ -169,7 +170,7 @@ def set_page(data: TrustSet) -> str:
         ],
         "Remark": remarks,
     }
-    if len({*columns["Against"]}) == 1:
+    if data.labels or len({*columns["Against"]}) == 1:
         del columns["Against"]  # The source is named above.
     if not judged:
         del columns["Target"], columns["Verdict"]
@@ -195,17 +196,19 @@ def set_page(data: TrustSet) -> str:
             for of in notes.values()
         )
         words += [
-            note if len(notes) == 1 else f"- {head}: {note}"
+            note if len(notes) == 1 and not data.labels else f"- {head}: {note}"
             for head, note in zip(heads, notes, strict=True)
         ]
+    pictures = [
+        f"![{chart.title if chart.title != data.title else ''}]({_picture(data, k)})"
+        for k, chart in enumerate(data.charts)
+    ]
+    # Of several sets the table comes first: it is what compares them.
+    body = [*words, *pictures] if data.labels else [*pictures, *words]
     return _page(
         f"# {data.title}",
         f"{_AGAINST[kind].capitalize()}: {data.compared}. {_source(data)}{'' if judged else ' No target is set.'}",
-        *(
-            f"![{chart.title if chart.title != data.title else ''}]({_picture(data, k)})"
-            for k, chart in enumerate(data.charts)
-        ),
-        *words,
+        *body,
         " ".join(
             (
                 *(f"[{words}]({file})." for file, words, _ in _tables(data)),
@@ -266,6 +269,15 @@ def _capital(words: str) -> str:
 
 def _verdict(word: str) -> str:
     return f"**{word}**" if word == "missed" else word
+
+
+def _verdict_of_page(data: TrustSet) -> str:
+    """The verdict; where quantities of several miss their target, also how many meet it."""
+    met = quantities_met(data.rows).values()
+    word = _verdict(data.verdict)
+    if data.verdict != "missed" or len(met) == 1:
+        return word
+    return f"{word}: {sum(met)} of {len(met)} meet it"
 
 
 def _picture(data: TrustSet, k: int) -> str:

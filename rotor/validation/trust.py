@@ -41,7 +41,7 @@ class TrustRow:
     """One comparison of a computed with a reference value: a row of the trust page."""
 
     set: str
-    """Name of its set, which is that of its page in docs/validation."""
+    """Name of its page in docs/validation."""
     kind: Kind
     what: str
     against: str
@@ -57,6 +57,11 @@ class TrustRow:
     target: str = ""
     """In words; empty where none was set."""
     verdict: Verdict = "no target"
+
+    @property
+    def quantity(self) -> str:
+        """What is compared, by whichever inflow model: `what` without the model."""
+        return self.what.partition(", inflow ")[0]
 
     @property
     def bound(self) -> bool:
@@ -90,12 +95,25 @@ class TrustSet:
     """Every compared number as a table; the first row is its heading."""
     tried: tuple[tuple[str, ...], ...] = ()
     """Causes that were tried, with what each gives, as a table; the first row is its heading."""
+    labels: tuple[str, ...] = ()
+    """Name of each row in the table of the page, whose source is then that of all rows; empty: `what` without the
+    title."""
 
     @property
     def verdict(self) -> Verdict:
         """Missed if one row is, no target if none has one."""
         verdicts = {row.verdict for row in self.rows}
         return "missed" if "missed" in verdicts else "met" if "met" in verdicts else "no target"
+
+
+def quantities_met(rows: Iterable[TrustRow]) -> dict[tuple[str, str], bool]:
+    """Whether each quantity with a target meets it with every inflow model compared, by page and name."""
+    met: dict[tuple[str, str], bool] = {}
+    for row in rows:
+        if row.target:
+            key = (row.set, row.quantity)
+            met[key] = met.get(key, True) and row.verdict == "met"
+    return met
 
 
 def rms(values: ArrayLike) -> float:
@@ -157,12 +175,13 @@ class SetDescription:
 
     def page(
         self, error: str, rows: Iterable[TrustRow], charts: Iterable[Chart], *, compared: str = "",
-        text: Iterable[str] | None = None, points: Iterable[Sequence[str]] = (),
+        text: Iterable[str] | None = None, points: Iterable[Sequence[str]] = (), labels: Iterable[str] = (),
     ) -> TrustSet:  # fmt: skip
         """The set with what was computed; `compared` and `text` where numbers stand in them."""
         return TrustSet(
             self.name, self.title, compared or self.compared, error, self.source, tuple(rows), tuple(charts),
             self.text if text is None else tuple(text), tuple(map(tuple, points)), self.tried,
+            tuple(labels),
         )  # fmt: skip
 
 
@@ -183,7 +202,7 @@ def coverage() -> float:
 
 @cache
 def trust_rows() -> tuple[TrustRow, ...]:
-    """The shipped rows, in order of kind; ValueError for a kind or a verdict that is not known."""
+    """The shipped rows, in the order of their pages; ValueError for a kind or a verdict that is not known."""
     rows: list[TrustRow] = []
     for cells in csv_rows(asset_path("trust.csv")):
         for name, known in (("kind", KINDS), ("verdict", VERDICTS)):

@@ -103,7 +103,7 @@ def test_the_measured_effect_of_twist_has_the_sign_of_the_table_it_is_counted_fr
     """The shipped changes are those of the tables; from table V, with measured C_T, twist costs power."""
     effect = load_set("castles-gray-twist-effect")
     tables = [
-        ("castles-gray", 0.0, point["ct"], point["change_percent"], point["scatter"])
+        ("castles-gray-table-1", 0.0, point["ct"], point["change_percent"], point["scatter"])
         for point in effect.points
     ]
     for plain, least, ct, change, scatter in (
@@ -207,6 +207,25 @@ def test_validate_as_json(answer: Callable[..., Any]):
     )
 
 
+def test_a_report_is_validated_with_all_its_sets_or_with_one(
+    answer: Callable[..., Any], capsys: pytest.CaptureFixture[str]
+):
+    """The words of the report stand with each set; refusals name reports, not their sets."""
+    found = answer("validate", "knight-hefner")["sets"]
+    assert [one["name"] for one in found] == ["knight-hefner-3", "knight-hefner-4"]
+    assert found == answer("validate", "knight-hefner-3", "knight-hefner-4")["sets"]
+    (effect,) = answer("validate", "castles-gray-twist-effect")["sets"]
+    assert effect["note"].startswith(load_set("castles-gray-twist-effect").note)
+    assert "This project has no usable measurement of what twist saves." in effect["note"]
+    with pytest.raises(ValueError, match=r"^'castles-gray' has several sets: use one of castles-"):
+        load_set("castles-gray")
+    assert main(["validate", "castles-gray-5ft"]) == 2
+    err = capsys.readouterr().err
+    assert "set 'castles-gray-5ft' is not known" in err
+    assert "knight-hefner, " in err
+    assert "knight-hefner-3" not in err
+
+
 def test_validate_of_any_set_and_its_page(
     answer: Callable[..., Any], capsys: pytest.CaptureFixture[str], tmp_path: Path
 ):
@@ -214,7 +233,7 @@ def test_validate_of_any_set_and_its_page(
     out, err = capsys.readouterr()
     assert "Rotating flap frequency" in out
     assert "never fitted" in out
-    for name in ("uh60a-constants", "knight-hefner-3"):
+    for name in ("uh60a-constants", "knight-hefner"):
         page = tmp_path / f"validation/{name}.md"
         assert f"page: {page}" in err
         assert f"]({name}.svg)" in page.read_text(encoding="utf-8")
@@ -226,8 +245,8 @@ def test_validate_of_any_set_and_its_page(
 @pytest.mark.parametrize(
     "name",
     [
-        "knight-hefner-3", "caradonna-tung-lift", "castles-gray-twist-effect", "xv15-forward-15deg", *FIELDS[1:],
-        "uh60a-constants", "theory",
+        "knight-hefner", "caradonna-tung-lift", "castles-gray", "xv15-forward", *FIELDS[1:], "uh60a-constants",
+        "theory",
     ],
 )  # fmt: skip
 def test_rows_of_the_trust_page(name: str):
