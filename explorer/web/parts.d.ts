@@ -34,7 +34,6 @@ interface RxState {
   vibration: RxVibrationPart | null;
   views: RxViewsPart;
   wipe: boolean;
-  wiped: number;
   worth: Record<string, RxSliderSaving>;
 }
 
@@ -89,7 +88,6 @@ interface RxPresses {
   balance: 'here' | 'flight';
   map_at: RxMapPress;
   pull: number | null;
-  wiped: number;
   covered: RxCoveredPress;
   scene: 'drawn' | 'none' | 'lost';
   view: 'actuator' | '3d' | 'disk' | 'blade' | 'top' | 'side';
@@ -128,7 +126,6 @@ interface RxBarPart {
   undo: boolean;
   redo: boolean;
   pinned: RxPinnedRow | null;
-  held: boolean;
 }
 
 interface RxPinnedRow {
@@ -155,7 +152,6 @@ interface RxDialPart {
   front: [number, number, number[]][];
   exaggerated: string;
   shake: number;
-  held: boolean;
 }
 
 interface RxModelChanges {
@@ -287,7 +283,6 @@ interface RxFieldPart {
   difference: boolean | null;
   wipe: boolean;
   beyond: [boolean, boolean];
-  held: boolean;
 }
 
 interface RxFlightPart {
@@ -355,7 +350,6 @@ interface RxLecturePart {
   figures: [string, string, string][];
   busy: boolean;
   problem: string;
-  held: boolean;
 }
 
 interface RxStepAnswer {
@@ -371,7 +365,6 @@ interface RxLinePart {
   status: RxStatus;
   named_sliders: string[];
   problem: string;
-  held: boolean;
 }
 
 interface RxLinePiece {
@@ -550,7 +543,6 @@ interface RxSupposePart {
 interface RxTurnPart {
   psi: number;
   playing: boolean;
-  held: boolean;
 }
 
 interface RxTwistPart {
