@@ -178,7 +178,7 @@ class Page:
         self._views.follow_browser(facts.scene)
         with layout.drawers["share"]:
             self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)
-            ExportPanel(context, self.scene, self.history, self.actuator, self.now, probe.place)
+            ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.drawers["lecture"]:
             self.lecture = lecture = LecturePanel(context, self.scene.camera, self._views, self.now)
         with layout.drawers["settings"]:
