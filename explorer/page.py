@@ -109,7 +109,7 @@ class Page:
     ) -> None:
         """`start`: where the page's address holds no design."""
         address = Address(facts.query, partial(set_query, client))
-        address.leave_out()
+        address.drop_retired()
         if facts.query is None:
             address.problems.append(_NO_LINK)
         if not facts.stores:

@@ -71,7 +71,7 @@ MOST_STEPS = 50
 VIEW = "v"
 """Name of the view in the address."""
 
-_LEFT_OUT_PARTS = {
+_RETIRED = {
     "follow": "a page no longer follows another",
     "present": "a page no longer leads others",
 }
@@ -442,9 +442,9 @@ class Address:
             self._unread[name] = []
             return usual
 
-    def leave_out(self) -> None:
-        """Remove what only earlier versions read, a problem for each."""
-        for name, reason in _LEFT_OUT_PARTS.items():
+    def drop_retired(self) -> None:
+        """Remove the names that only earlier versions read; each is a problem."""
+        for name, reason in _RETIRED.items():
             if self[name] is not None:
                 sentence = f"{name!r} was left out: {reason}."
                 self.problems.append((f"Link: {name} not used", sentence))
