@@ -22,11 +22,9 @@ from explorer.model.inputs import OPENING, Inputs
 from explorer.model.units import SI, units_of
 from explorer.picture import picture
 from explorer.session import Session
-from explorer.sharing.presentation import FOLLOW, Presentations
 from explorer.sharing.share import DESIGN, VIEW, inputs_from, parameter, view_from
 from explorer.text.design_words import flight_words, title_words
 from explorer.text.readout import fineness
-from explorer.widgets.context import SharedServices
 from explorer.workers import solver
 from explorer.workers.newest_wins import UPDATES, NewestWins, UpdatePool
 from rotor import solve
@@ -158,9 +156,7 @@ class FirstAnswers:
 
 
 def _first_words(query: str, start: Inputs) -> str:
-    """Power, design and flight in three lines; empty where the page shows another's design, or there is no trim."""
-    if parameter(query, FOLLOW):
-        return ""  # A presenter's page decides what is shown.
+    """Power, design and flight in three lines; empty where there is no trim."""
     code, view = parameter(query, DESIGN), parameter(query, VIEW)
     design = (start if code is None else inputs_from(code)).design()
     units = units_of(view_from(view).units if view is not None else SI.title, design.aircraft)
@@ -192,7 +188,6 @@ class App:
         self._seated: set[ClientConnection] = set()
         self.pool = Processes(_WORKERS, partial(solver.prepare_worker, self._limits.cache_bytes))
         self._warmed = threading.Event()
-        self.presentations = Presentations()
         hosts = AllowedHosts(host, self._limits.allow_hosts)
         page = with_loading_screen(viser_compat.client_html(), web.frame())
         first = FirstAnswers(lambda: self._start)
@@ -274,7 +269,7 @@ class App:
         memory.release_memory_soon()
 
     def _session(self, client: viser.ClientHandle, facts: PageFacts) -> Session:
-        return Session(client, self._start, facts, SharedServices(self.pool, self.presentations))
+        return Session(client, self._start, facts, self.pool)
 
     def _warm(self) -> None:
         try:

@@ -23,7 +23,6 @@ from explorer.scene.camera import FittedCamera
 from explorer.scene.controller import SceneController
 from explorer.scene.overlays import overlay_of
 from explorer.sharing import share
-from explorer.sharing.presentation import PRESENT
 from explorer.sharing.share import VIEW, Address, view_from
 from explorer.text.glossary import hint
 from explorer.views.actuated import counted_from
@@ -54,14 +53,13 @@ from explorer.views.vibration import VIBRATION
 from explorer.views.waterfall import COSTS, WATERFALL
 from explorer.views.worth import WORTH, twist_slopes
 from explorer.widgets.actuator.actuator_panel import ActuatorPanel
-from explorer.widgets.context import SharedServices, TabContext
+from explorer.widgets.context import TabContext
 from explorer.widgets.controls import SessionCallbacks
 from explorer.widgets.design_files import FilePanel, add_rotor_upload
 from explorer.widgets.export_panel import ExportPanel
 from explorer.widgets.history_panel import HistoryPanel
 from explorer.widgets.layout import Sections
 from explorer.widgets.lecture.lecture_panel import LecturePanel
-from explorer.widgets.lecture.presentation_banner import PresentationBanner
 from explorer.widgets.optimise.map_panel import MapPanel
 from explorer.widgets.optimise.optimise_panel import OptimisePanel
 from explorer.widgets.optimise.schedule_panel import SchedulePanel
@@ -71,6 +69,7 @@ from explorer.widgets.twist_curve import TwistCurveEditor
 from explorer.widgets.views import SceneViews, SettingsPanel, theme
 from rotor import Design, Solution, solve
 from rotor.support.markup import tag
+from rotor.support.processes import Processes
 from rotor.support.user_input import brief
 
 _ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
@@ -105,11 +104,12 @@ class Page:
         client: viser.ClientHandle,
         start: Inputs,
         facts: PageFacts,
-        shared: SharedServices,
+        pool: Processes,
         callbacks: SessionCallbacks,
     ) -> None:
         """`start`: where the page's address holds no design."""
         address = Address(facts.query, partial(set_query, client))
+        address.drop_retired()
         if facts.query is None:
             address.problems.append(_NO_LINK)
         if not facts.stores:
@@ -119,22 +119,16 @@ class Page:
         view = address.read(VIEW, view_from, ViewState(), "Link: view not used")
         theme(client, facts.dark)
         client.gui.set_panel_label("Rotor explorer")
-        banner = client.gui.add_folder(None)
         self.latest = PageState(start, None, None, view=replace(view, dark=facts.dark))
         """As of the last update; `now` has the rest."""
-        self.context = TabContext(client, self.latest, shared, callbacks)
-        with banner:
-            secret = facts.kept.get(PRESENT, "")
-            presentation = PresentationBanner(
-                self.context, shared.presentations, address, secret, facts.page
-            )
+        self.context = TabContext(client, self.latest, pool, callbacks)
         rotor = start.aircraft.rotor_for(start.preset)
         camera = FittedCamera(client, rotor.radius)
         self.scene = SceneController(
             client, camera, rotor, self.context.display.show_range, facts.dark
         )
         self._add_rail(address)
-        self._add_drawers(address, facts, presentation)
+        self._add_drawers(address, facts)
         self._listen(opening, address)
         for (
             title,
@@ -161,9 +155,7 @@ class Page:
             self.actuator = ActuatorPanel(context, address)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
 
-    def _add_drawers(
-        self, address: Address, facts: PageFacts, presentation: PresentationBanner
-    ) -> None:
+    def _add_drawers(self, address: Address, facts: PageFacts) -> None:
         """What stands on the left, and the panels."""
         context, start = self.context, self.latest.inputs
         layout, gui = context.layout, context.gui
@@ -186,7 +178,7 @@ class Page:
         self._views.follow_browser(facts.scene)
         with layout.drawers["share"]:
             self.file = FilePanel(context, address, facts.kept, opened["Files"], self._carry)
-            ExportPanel(context, self.scene, self.history, self.actuator, self.now, probe.place)
+            ExportPanel(context, self.scene, self.history, self.actuator, self.now)
         with layout.drawers["lecture"]:
             self.lecture = lecture = LecturePanel(context, self.scene.camera, self._views, self.now)
         with layout.drawers["settings"]:
@@ -202,15 +194,7 @@ class Page:
             self._pressed,
             self._perform,
         )
-        context.following += [
-            probe.show,
-            settings.show,
-            self.history.show,
-            lecture.show,
-            presentation.show,
-        ]
-        with layout.drawers["lecture"]:
-            presentation.begin(lecture, self._views, self.optimise.hand, self._hold)
+        context.following += [probe.show, settings.show, self.history.show, lecture.show]
 
     def _listen(self, opening: Inputs, address: Address) -> None:
         """Presses that no part of the page has for itself."""
@@ -227,11 +211,7 @@ class Page:
         bridge.on("aim", lambda _: camera.come_back())
         bridge.on("taken", lambda _: camera.let_go())
         bridge.on("covered", lambda cards: camera.leave_free(cards.above, cards.below))
-        bridge.on(
-            "hold", lambda held: None if context.held else self._grabbed(bool(held)), at_once=True
-        )
-        if context.held:
-            return
+        bridge.on("hold", lambda held: self._grabbed(bool(held)), at_once=True)
         if (
             actuator := address.read(
                 share.CARRIED, inputs_from_spec, None, "Link: actuator not used"
@@ -322,7 +302,6 @@ class Page:
             ui=OpenPanels(
                 context.layout.mode,
                 context.layout.drawer,
-                context.held,
                 self.actuator.lifted,
                 self._views.now == "disk",
             ),
@@ -428,7 +407,7 @@ class Page:
     def _nearest_trim(self) -> None:
         """From inputs without a trim to the nearest towards the last that had one; one step of undo takes it back."""
         state = self.context.state()
-        if state is not None and not self.context.held:
+        if state is not None:
             wanted, carried = (
                 self.context.controls.inputs(),
                 state.solution.design.rotor.blade.carried,
@@ -457,14 +436,6 @@ class Page:
         context.controls.refresh(inputs, context.units)
         for refresh in context.refreshing:
             refresh(self.latest.sliders)
-
-    def _hold(self, held: bool) -> None:
-        """Leave what moves the page to a presenter, or give it back."""
-        context = self.context
-        context.held = context.keyboard.held = held
-        for part in (context.controls, self.optimise, context.display, self.lecture):
-            part.hold(held)
-        self.follower.follow((*AT_ONCE, ACTUATOR).__contains__)
 
     def _blade_grabbed(self, held: bool) -> None:
         """The blade or a handle of its twist curve was taken by the hand, or let go."""
@@ -503,24 +474,23 @@ class Page:
     def _default(self, opening: Inputs, label: str) -> None:
         """A slider was double-clicked."""
         mode = self.context.layout.mode
-        if not self.context.held and mode == "explore":
+        if mode == "explore":
             self.context.controls.default(label, opening)
-        elif not self.context.held:
-            (self.optimise.form if mode == "optimise" else self.actuator.controls.form).default(
-                label
-            )
+        elif mode == "optimise":
+            self.optimise.form.default(label)
+        else:
+            self.actuator.controls.form.default(label)
 
     def _slide(self, to: SlidePress) -> None:
         """A number of the line, or the dot of power over µ, was moved: its slider moves as if by a hand."""
-        if not self.context.held:
-            forms = (
-                self.context.controls.form,
-                self.context.controls.stand.form,
-                self.actuator.controls.form,
-            )
-            for form in forms:
-                if to.name in form:
-                    form.move(to.name, to.place)
+        forms = (
+            self.context.controls.form,
+            self.context.controls.stand.form,
+            self.actuator.controls.form,
+        )
+        for form in forms:
+            if to.name in form:
+                form.move(to.name, to.place)
 
     def _reset(self, opening: Inputs) -> None:
         """The design of a page without a link; what is shown in its place, a preview, ends."""

@@ -27,12 +27,12 @@ from explorer.model.session_state import SessionState
 from explorer.page import Page, Urgency
 from explorer.parts.presses import IdlePress
 from explorer.views.page_state import PageState
-from explorer.widgets.context import SharedServices
 from explorer.widgets.controls import SessionCallbacks
 from explorer.workers import solver
 from explorer.workers.newest_wins import GIVE_WAY, UPDATES, NewestWins
 from rotor import Design, Solution
 from rotor.support.blas_threads import one_blas_thread
+from rotor.support.processes import Processes
 from rotor.trim.newton import FEW_DIGITS
 
 _log = logging.getLogger(__name__)
@@ -47,7 +47,7 @@ class Session:
     """Exists from connect to disconnect. After construction everything happens in updates, one at a time."""
 
     def __init__(
-        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, shared: SharedServices
+        self, client: viser.ClientHandle, start: Inputs, facts: PageFacts, pool: Processes
     ) -> None:
         """`start`: used where the page's address holds no design."""
         self._latest: Solution | None = None
@@ -67,7 +67,7 @@ class Session:
         self._worker = NewestWins(self._update, self._failed, held=True)
         self._client = client
         callbacks = SessionCallbacks(self._wake, self._worker.wake, lambda: self.page.latest.state)
-        self.page = Page(client, start, facts, shared, callbacks)
+        self.page = Page(client, start, facts, pool, callbacks)
         self._baseline = solver.BaselineCache(by=self.page.context.analyses.solve)
 
     def start(self) -> None:

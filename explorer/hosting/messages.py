@@ -242,8 +242,6 @@ class PageFacts(Struct, frozen=True):
     """The query of the page's address, from the question mark on; None where the browser did not tell."""
     kept: dict[str, str] = {}
     """Texts that it was given to keep by name: see `browser.store_text`."""
-    page: Annotated[str, Meta(max_length=40)] = ""
-    """Another one each time that a tab is loaded; the same when a page connects again."""
     scene: Drawn = "drawn"
     stores: bool = True
     """Whether the browser stores what the page keeps."""

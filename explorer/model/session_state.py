@@ -24,7 +24,7 @@ _DRIVEN = "The voltage of the actuator is unchanged: set it under Actuate."
 
 @dataclass(frozen=True)
 class ScreenState:
-    """What is on screen, whoever put it there: a hand, the lecture or a presenter. `against`: A of A/B."""
+    """What is on screen, put there by a hand or by the lecture. `against`: A of A/B."""
 
     inputs: Inputs
     view: ViewState

@@ -47,6 +47,5 @@ class Parts(TypedDict, total=False):
     vibration: stage.VibrationPart | None
     views: frame.ViewsPart
     wipe: bool
-    wiped: float
     """Place of the handle between A and B from the left, 0…1."""
     worth: Mapping[str, results.SliderSaving]

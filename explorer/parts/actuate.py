@@ -43,7 +43,6 @@ class DialPart:
     front: tuple[tuple[float, float, tuple[float, ...]], ...]
     exaggerated: str
     shake: float
-    held: bool
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ class PinnedRow:
 
 @dataclass(frozen=True)
 class BarPart:
-    """The bar at the top; `rotors`: name and title of each. `held`: a presenter moves the page."""
+    """The bar at the top; `rotors`: name and title of each."""
 
     rotors: Sequence[tuple[str, str]]
     rotor: str
@@ -29,7 +29,6 @@ class BarPart:
     undo: bool
     redo: bool
     pinned: PinnedRow | None
-    held: bool
 
 
 @dataclass(frozen=True)
@@ -101,4 +100,3 @@ class LecturePart:
     figures: Sequence[tuple[str, str, str]]
     busy: bool
     problem: str
-    held: bool

@@ -126,7 +126,6 @@ PRESSES: dict[str, Any] = {
     "balance": Literal["here", "flight"],
     "map_at": MapPress,
     "pull": _Pull,
-    "wiped": Annotated[float, Meta(ge=-1.0, le=2.0)],
     "covered": CoveredPress,
     "scene": Drawn,
     "view": Literal["actuator", "3d", "disk", "blade", "top", "side"],

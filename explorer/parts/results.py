@@ -80,7 +80,6 @@ class LinePart:
     status: LineStatus
     named_sliders: Sequence[str] = ()
     problem: str = ""
-    held: bool = False
 
 
 @dataclass(frozen=True)

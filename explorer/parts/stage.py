@@ -22,11 +22,10 @@ class SceneLabel:
 
 @dataclass(frozen=True)
 class TurnPart:
-    """The reference blade's azimuth [°], and whether the rotor turns by itself. `held`: a presenter moves the page."""
+    """The reference blade's azimuth [°], and whether the rotor turns by itself."""
 
     psi: float
     playing: bool
-    held: bool
 
 
 @dataclass(frozen=True)
@@ -35,7 +34,7 @@ class FieldPart:
 
     `ticks`: place [% of the bar] and text of each. `fitted`: the range is fitted to the data; `beyond`: values lie
     below it, and above. `regions`: whether each is shown; `shares`: of the disk, or "none". `difference`: whether
-    B − A is shown; None without A. `held`: a presenter moves the page.
+    B − A is shown; None without A.
     """
 
     fields: Sequence[str]
@@ -50,7 +49,6 @@ class FieldPart:
     difference: bool | None
     wipe: bool
     beyond: tuple[bool, bool]
-    held: bool
 
 
 @dataclass(frozen=True)

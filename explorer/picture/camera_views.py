@@ -11,7 +11,6 @@ from explorer.model.inputs import ViewState
 from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.picture import (
-    axis_rotation,
     composed_rotation,
     disk_drop,
     flown_form,
@@ -145,12 +144,12 @@ def fit(
     )
 
 
-def seen_at(camera: Camera, points: Array, aspect: float, view: float = FIELD_OF_VIEW) -> Array:
+def seen_at(camera: Camera, points: Array, aspect: float) -> Array:
     """Where points (n, 3) [m] stand in a picture of this width over height, (n, 2): fractions from the left and from
-    above; outside 0…1 they are not in it. `view`: vertical [rad]."""
+    above; outside 0…1 they are not in it."""
     right, down, forward = camera_axes(camera)
     away = points - camera.position
-    sight = 2.0 * math.tan(view / 2.0) * (away @ forward)
+    sight = 2.0 * math.tan(FIELD_OF_VIEW / 2.0) * (away @ forward)
     return 0.5 + np.stack((away @ right / (aspect * sight), away @ down / sight), axis=1)
 
 
@@ -230,19 +229,6 @@ RIDE_VIEW = math.radians(60.0)
 """Vertical [rad] of the camera that rides with a section: wide, so that horizon and disk are in sight."""
 RIDE_EYE, RIDE_LOOK = (-0.06, -0.40, 0.16), (0.04, 0.35, -0.113)
 """Where it stands and looks, from the section: out, ahead and up [R]. Behind the trailing edge, the horizon above."""
-
-
-def riding(solution: Solution, out: float, psi: float) -> Camera:
-    """With the section `out` [m] from the hub of a blade at ψ [rad]; `rotorScene.ride` does the same in the page."""
-    controls, rotor = solution.controls, solution.design.rotor
-    cos, sin, hinge = math.cos(psi), math.sin(psi), rotor.blade.flap_hinge * rotor.radius
-    flap = controls.coning + controls.flap_1c * cos + controls.flap_1s * sin
-    section = np.array([out, 0.0, (out - hinge) * math.sin(flap)])
-    shaft = composed_rotation(rotor_pose(controls).wxyz, axis_rotation(2, psi))
-    eye, look = (
-        rotate(shaft, section + rotor.radius * np.array(place)) for place in (RIDE_EYE, RIDE_LOOK)
-    )
-    return Camera(eye, look)
 
 
 _CONJUGATE = np.array([1.0, -1.0, -1.0, -1.0])

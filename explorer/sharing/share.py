@@ -71,6 +71,12 @@ MOST_STEPS = 50
 VIEW = "v"
 """Name of the view in the address."""
 
+_RETIRED = {
+    "follow": "a page no longer follows another",
+    "present": "a page no longer leads others",
+}
+"""Names that links of earlier versions have, and why nothing reads them now."""
+
 _PLAIN_VIEW = ViewState()
 _NAMES = tuple(item.name for item in fields(ViewState) if item.name not in ("azimuth_deg", "dark"))
 _SWITCHED = {"on": True, "off": False}
@@ -414,7 +420,7 @@ class Address:
         self._unread: dict[str, list[str | None]] = {}
         """Names whose value could not be read, with what the page opened with instead, once that is known."""
         self.problems: list[tuple[str, str]] = []
-        """A title and a sentence for each value that could not be read."""
+        """A title and a sentence for each value that could not be read, or that nothing reads."""
 
     def __getitem__(self, name: str) -> str | None:
         return parameter(self.query, name)
@@ -435,6 +441,14 @@ class Address:
             self.problems.append((title, str(error)))
             self._unread[name] = []
             return usual
+
+    def drop_retired(self) -> None:
+        """Remove the names that only earlier versions read; each is a problem."""
+        for name, reason in _RETIRED.items():
+            if self[name] is not None:
+                sentence = f"{name!r} was left out: {reason}."
+                self.problems.append((f"Link: {name} not used", sentence))
+                self[name] = None
 
     def __setitem__(self, name: str, value: str | None) -> None:
         with self._lock:

@@ -68,7 +68,7 @@ class FormLook:
     seen: Mapping[str, bool]
     labels: Mapping[str, str]
     inert: bool = False
-    """Whether nobody may move them: no actuator fits this rotor, or a presenter holds the page."""
+    """Whether nobody may move them: no actuator fits this rotor."""
 
 
 def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
@@ -107,7 +107,7 @@ def _form(now: PageState, one: ActuatedBlade | None) -> dict[str, FormLook]:
             installed = inputs.installed(uh60a_rotor(design.preset))
     if installed is None:
         return {}
-    return {"actuator.form": replace(form_look(inputs, installed), inert=now.ui.held or not fits)}
+    return {"actuator.form": replace(form_look(inputs, installed), inert=not fits)}
 
 
 def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:

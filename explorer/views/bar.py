@@ -16,7 +16,6 @@ def bar(now: PageState) -> dict[str, BarPart]:
         undo=undo,
         redo=redo,
         pinned=_pinned(now),
-        held=now.ui.held,
     )
     return {"bar": part}
 

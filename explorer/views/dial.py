@@ -186,7 +186,6 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
         exaggerated=number(_SHAKE_EXAGGERATION),
         shake=_SHAKE_EXAGGERATION
         / (design.condition.mass * (design.rotor.blades * design.rotor.angular_speed) ** 2),
-        held=now.ui.held,
     )
 
 

@@ -66,12 +66,12 @@ def line(now: PageState) -> LinePart:
             else " …"
         )
         pieces.append(LinePiece(words, "problem"))
-        return LinePart(pieces, LineStatus("problem", "", problem), named, problem, now.ui.held)
+        return LinePart(pieces, LineStatus("problem", "", problem), named, problem)
     doubts = [(task, *now.latest(task)) for task in shown_doubt(now)]
     band, known = (doubts[0][1], doubts[0][2]) if doubts else (None, True)
     pieces += power_pieces(state.solution, units, band, known)
     pieces += _flight_change(one) if one is not None else _change(now)
-    return LinePart(pieces, status(state, units), named, held=now.ui.held)
+    return LinePart(pieces, status(state, units), named)
 
 
 def _actuator(one: ActuatedBlade) -> list[LinePiece]:

@@ -76,4 +76,4 @@ def prompt(now: PageState) -> dict[str, SceneLabel | None]:
 
 
 NOTICE = Panel(notice, works=game_doubt)
-PROMPT = Panel(prompt, lambda ui: ui.mode == "explore" and not ui.held)
+PROMPT = Panel(prompt, lambda ui: ui.mode == "explore")

@@ -21,14 +21,13 @@ T = TypeVar("T")
 
 @dataclass(frozen=True)
 class OpenPanels:
-    """What of the page is open, and whether a presenter moves it (`held`).
+    """What of the page is open.
 
     `lifted`: the blade with its actuator is out of the rotor. `disk`: the view of the disk is shown.
     """
 
     mode: Mode = "explore"
     drawer: str = ""
-    held: bool = False
     lifted: bool = False
     disk: bool = False
 
@@ -234,6 +233,6 @@ class Panel:
     reacts: Callable[[PageState], tuple[Effect, ...]] = lambda now: ()
     """What a new answer moves, without a press."""
     presses: Mapping[str, Press] = field(default_factory=dict[str, Press])
-    """By name in `presses.PRESSES`. Where the panel is not seen, or a presenter holds the page, they only let go."""
+    """By name in `presses.PRESSES`. Where the panel is not seen, they only let go."""
     keys: tuple[str, ...] = ()
     """Presses that a command of the keyboard with the same name does too."""

@@ -177,8 +177,8 @@ class PanelUpdater:
     def press(self, press: Press, seen: Callable[[OpenPanels], bool], value: Any) -> None:
         """Do what it says, where its panel is seen; of a widget too."""
         now = self._pressed()
-        free = seen(now.ui) and not now.ui.held
+        is_seen = seen(now.ui)
         for effect in press(now, value):
             # What is let go meanwhile must not stay in the hand.
-            if free or effect == SetGrabbed(False):
+            if is_seen or effect == SetGrabbed(False):
                 self._perform(effect)

@@ -138,7 +138,6 @@
     const {regions, difference, wipe} = field;
     write(menu, field.fields.map(name => `<option value="${text(name)}">${low(name)}</option>`).join(''));
     if (menu.value !== field.field) menu.value = field.field;
-    menu.disabled = field.held;
     part('unit').textContent = field.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.
     scale.className = field.faded ? 'rxf-faded' : '';
     const other = field.fitted ? 'the usual colour range (Shift+C)' : 'colours fitted to the data (C)';
@@ -169,7 +168,6 @@
     const row = document.querySelector('.rxf-turn'), slider = row.querySelector('input');
     const button = row.querySelector('[data-do=play]');
     if (document.activeElement !== slider || turn.playing) slider.value = String(turn.psi);
-    slider.disabled = turn.held;
     row.querySelector('output').textContent = `ψ ${Math.round(turn.psi)}°`;
     write(button, RX.icon(turn.playing ? 'pause' : 'play'));
     button.ariaLabel = turn.playing ? 'Stop the rotor' : 'Turn the rotor';

@@ -205,7 +205,7 @@
       <path d="M${middle} ${middle}L${x} ${y}" stroke="var(--rx-blade)" stroke-width="2"/>
       <circle cx="${middle}" cy="${middle}" r="2" fill="var(--rx-ink)"/>
       <circle data-dot ${beyond(dial) ? 'data-beyond' : ''} cx="${x}" cy="${y}" r="9"
-        tabindex="${dial.held ? -1 : 0}" role="slider" aria-label="Amplitude and phase at ${chosen}/rev"
+        tabindex="0" role="slider" aria-label="Amplitude and phase at ${chosen}/rev"
         aria-valuemin="0" aria-valuemax="${reach}" aria-valuenow="${amplitude}" aria-valuetext="${label}">
         <title>${label}. Drag it; arrow keys: phase and amplitude.</title></circle></svg>`;
   }
@@ -383,7 +383,7 @@
   }
   drag(document, '.rxd-round, .rxd-front svg', (pressed, event) => {
     const {dial} = RX.state, circle = pressed.matches('.rxd-round'), place = circle ? pressed : pressed.parentElement;
-    if (!dial || dial.held || !(circle || dial.front.length > 1)) return null;
+    if (!dial || !(circle || dial.front.length > 1)) return null;
     if (circle && Math.hypot(...onDial(place, event)) > 1 + (EDGE - 8) / (place.clientWidth / 2 - EDGE)) return null;
     event.preventDefault();
     if (circle) place.querySelector('[data-dot]')?.focus({preventScroll: true});

@@ -118,14 +118,6 @@
     if (lost && control && NAMES.every(name => before.dataset[name] === control.dataset[name]))
       control.dispatchEvent(new MouseEvent('click', {bubbles: true}));
   }, true);
-  // A link to be passed on, not followed.
-  document.addEventListener('click', event => {
-    const link = closest(event, 'a[data-copy]');
-    if (!link || !navigator.clipboard) return;
-    event.preventDefault();
-    const follows = () => window.open(link.href, '_blank', 'noopener');
-    navigator.clipboard.writeText(link.href).then(() => RX.say('Link copied'), follows);
-  });
   document.addEventListener('change', event => {
     const menu = closest(event, '#rx select[data-do]');
     if (!menu) return;
@@ -251,11 +243,9 @@
     const menu = root.querySelector('.rxf-rotor'), tool = name => root.querySelector(`.rxf-tools [data-do=${name}]`);
     write(menu, bar.rotors.map(([name, title]) => `<option value="${text(name)}">${text(title)}</option>`).join(''));
     if (document.activeElement !== menu || menu.value !== bar.rotor) menu.value = bar.rotor;
-    menu.disabled = bar.held;
     mark(bar.mode);
-    for (const name of ['undo', 'redo']) tool(name).disabled = !bar[name] || bar.held;
+    for (const name of ['undo', 'redo']) tool(name).disabled = !bar[name];
     const pin = tool('pin');
-    pin.disabled = bar.held;
     pin.toggleAttribute('data-on', Boolean(bar.pinned));
     pin.querySelector('span').textContent = bar.pinned ? 'A pinned ▾' : 'Pin A';
     pin.ariaLabel = bar.pinned ? `A is ${bar.pinned.title}` : 'Pin A';

@@ -3,14 +3,11 @@
 (() => {
   const page = document.documentElement, place = RX.part('caption');
   const story = window.makeStory(place, RX.part('figures'), (what, value) => RX.send(what, value));
-  let wiped = null;
-  rotorWipe.heard(share => { clearTimeout(wiped); wiped = setTimeout(() => RX.send('wiped', share), 60); });
   const name = () => {
     const {lecture, steps, bar} = RX.state, step = lecture && steps?.[lecture.at];
     rotorWipe.name(`A: ${step?.a || bar?.pinned?.title || ''}`, step?.b ? `B: ${step.b}` : 'B');
   };
   RX.paint('wipe', on => { name(); rotorWipe.set(on); });
-  RX.paint('wiped', share => rotorWipe.set(RX.state.wipe === true, share));
   RX.paint('steps', steps => { story.steps(steps); name(); });
   RX.paint('lecture', step => {
     const begins = step && !page.hasAttribute('data-lecture');

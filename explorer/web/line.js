@@ -9,13 +9,13 @@
   let told = 0;
 
   RX.paint('line', line => {
-    const {pieces, status, problem, held} = line, focused = closest({target: document.activeElement}, '[data-slide]');
+    const {pieces, status, problem} = line, focused = closest({target: document.activeElement}, '[data-slide]');
     controls.clear();
     const words = pieces.map(({text: said, part: name, kind, stale, title, control}) => {
       if (control) controls.set(control.name, control);
-      const slides = control && `role="slider" tabindex="${held ? -1 : 0}" data-slide="${control.name}"
+      const slides = control && `role="slider" tabindex="0" data-slide="${control.name}"
         aria-label="${text(control.label)}" aria-valuemin="${control.low}" aria-valuemax="${control.high}"
-        aria-valuenow="${control.value}" aria-valuetext="${text(control.words)}" ${held ? 'aria-disabled="true"' : ''}
+        aria-valuenow="${control.value}" aria-valuetext="${text(control.words)}"
         title="${text(control.label)}: drag, or arrow keys"`;
       const marks = name && `data-explorer="${name}" class="${kind && `rxf-${kind}`}" ${stale ? 'data-stale' : ''}
         ${title && `title="${text(title)}"`}`;
@@ -62,7 +62,7 @@
     sliding.send([name, value]);
     clearTimeout(told);
   }
-  drag(place, '[data-slide]:not([aria-disabled])', (element, {clientX}) => {
+  drag(place, '[data-slide]', (element, {clientX}) => {
     const {slide: name} = element.dataset, control = controls.get(name);
     if (!control) return null;
     const {value, low, high, step} = control, letGo = RX.hold(), near = SPAN * step / (high - low);
@@ -74,7 +74,7 @@
     };
   });
   place.addEventListener('keydown', event => {
-    const {slide: name} = closest(event, '[data-slide]:not([aria-disabled])')?.dataset ?? {};
+    const {slide: name} = closest(event, '[data-slide]')?.dataset ?? {};
     const control = controls.get(name);
     if (!control) return;
     const {value, low, high, step} = control, up = value + step, down = value - step;

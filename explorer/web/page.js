@@ -4,7 +4,6 @@
   const {clamp, closest} = Common, KEPT = 'rx-kept', page = document.documentElement;
   const kept = () => JSON.parse(sessionStorage.getItem(KEPT) ?? '{}');
   const answer = (key, text) => localStorage.setItem(`viser-user:${key}`, text);  // Where the server reads it.
-  const loaded = Array.from(crypto.getRandomValues(new Uint32Array(4)), n => n.toString(36)).join('');
   let asked = false;
 
   // As if typed, into a text widget of viser's that hears of it.
@@ -34,16 +33,15 @@
   });
 
   Object.assign(RX, {
-    // What only the browser knows: whether it asks for dark pages, its address, what it was given to keep, which a
-    // duplicated tab has too, and a name that it does not share. A page that was open before, and whose server has come
-    // back, stays as it was.
+    // What only the browser knows: whether it asks for dark pages, its address, and what it was given to keep. A page
+    // that was open before, and whose server has come back, stays as it was.
     facts(key) {
       const wished = matchMedia('(prefers-color-scheme: dark)').matches
         || new URLSearchParams(location.search).has('darkMode');
       const dark = asked ? page.dataset.mantineColorScheme === 'dark' : wished;
       asked = true;
       const {drawn: scene} = rotorScene, stores = sessionStorage instanceof Storage;
-      answer(key, JSON.stringify({dark, query: location.search, kept: kept(), page: loaded, scene, stores}));
+      answer(key, JSON.stringify({dark, query: location.search, kept: kept(), scene, stores}));
     },
     // A text too long for the browser's store (some megabytes) is not kept, nor what stood there before.
     keep(name, text) {

@@ -47,15 +47,15 @@ window.makeStory = (column, figures, report) => {
 
   const show = () => {
     if (!now || !steps.length) return;
-    const {at, guess, answer, stop, held} = now;
+    const {at, guess, answer, stop} = now;
     column.dataset.step = at + 1;
     [...list.children].forEach((step, k) => {
       step.inert = k !== at;
       const own = k === at ? now : {guess: null, answer: null};
       for (const button of step.querySelectorAll('.rxs-guess button')) {
         const n = Number(button.dataset.value);
-        button.disabled = held || own.guess !== null;
-        if (own.guess === n) button.dataset.chosen = held ? 'the presenter’s guess' : 'your guess';
+        button.disabled = own.guess !== null;
+        if (own.guess === n) button.dataset.chosen = 'your guess';
         else delete button.dataset.chosen;
         button.toggleAttribute('data-right', Boolean(own.answer) && own.answer.right === n);
       }
@@ -74,23 +74,17 @@ window.makeStory = (column, figures, report) => {
     out.textContent = step.control.words.length ? step.control.words[stop] ?? '' : now.problem || 'computing …';
     if (slider) {
       if (document.activeElement !== slider || !slider.matches(':active')) slider.value = stop ?? 0;
-      slider.disabled = held || !step.control.words.length;
+      slider.disabled = !step.control.words.length;
       slider.ariaValueText = out.textContent;
       const play = part.querySelector('[data-sweep]');
       play.disabled = slider.disabled;
       play.dataset.on = Boolean(sweep);
     }
-    part.querySelector('.rxs-todo').hidden = held;  // Who follows has nothing to try.
-    for (const button of part.querySelectorAll('[data-do=stop]')) {
+    for (const button of part.querySelectorAll('[data-do=stop]'))
       button.ariaPressed = String(Number(button.dataset.value) === stop);
-      button.disabled = held;
-    }
     foot.querySelectorAll('.rxs-dots button').forEach((dot, k) => {
       dot.ariaCurrent = k === at ? 'step' : 'false';
-      dot.disabled = held;
     });
-    for (const button of foot.querySelectorAll('[data-do=lecture]')) button.hidden = held;
-    foot.querySelector('[data-held]').hidden = !held;
     foot.querySelector('[data-value=back]').disabled = at === 0;
     foot.querySelector('[data-value=next]').textContent = step.last ? 'Fly it' : 'Next';
     figures.hidden = false;
@@ -132,7 +126,7 @@ window.makeStory = (column, figures, report) => {
     aiming = false;
     if (!now || !steps.length) return;
     const at = seen();
-    if (hand && !now.held && at >= 0 && at !== now.at) report('story', at);
+    if (hand && at >= 0 && at !== now.at) report('story', at);
     else { hand = false; keep(); }
   };
   list.addEventListener('scroll', () => {

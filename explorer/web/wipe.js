@@ -4,7 +4,7 @@
 (() => {
   const {clamp, drag, viewer, node} = Common, stage = document.querySelector('.rxf-stage');
   const place = stage.querySelector('[data-part=wipe]'), handle = place.querySelector('[role=slider]');
-  let on = false, at = 0.5, second = false, hooked = null, listener = null, held = false;
+  let on = false, at = 0.5, second = false, hooked = null;
 
   const see = (a, b) => {
     for (const [name, seen] of [['/compared', a], ['/rotor', b]]) if (node(name)) node(name).visible = seen;
@@ -44,19 +44,16 @@
   function move(share) {
     at = clamp(share, 0.02, 0.98);
     show();
-    listener?.(Math.round(1000 * at) / 1000);
   }
   drag(handle, '*', (_, event) => {
     event.preventDefault();
     handle.setPointerCapture(event.pointerId);
     handle.focus();
-    held = true;
     return {
       move({clientX}) {
         const {left, width} = stage.getBoundingClientRect();
         move((clientX - left) / width);
       },
-      end() { held = false; },
     };
   });
   handle.addEventListener('keydown', event => {
@@ -68,18 +65,15 @@
   });
 
   window.rotorWipe = {
-    set(wanted, share) {
+    set(wanted) {
       if (on && !wanted) see(true, true);  // Both are seen again where nothing is wiped.
       on = wanted;
-      if (!held) at = share ?? at;
       show();
     },
     name(a, b) {
       place.querySelector('[data-side=a]').textContent = a;
       place.querySelector('[data-side=b]').textContent = b;
     },
-    heard(next) { listener = next; },
-    get at() { return at; },
   };
   setInterval(() => { if (on) look(); }, 500);  // A page that connects again has another scene.
 })();

@@ -4,7 +4,6 @@ import logging
 import threading
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import viser
 
@@ -13,7 +12,6 @@ from explorer.model.inputs import Inputs
 from explorer.model.session_state import Pinboard, SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import Units, units_of
-from explorer.sharing.presentation import Presentations
 from explorer.views.page_state import PageState
 from explorer.widgets.controls import DesignControls, SessionCallbacks
 from explorer.widgets.display import Display
@@ -29,12 +27,6 @@ BEAT = 0.05
 """Time between steps of a clock [s]: a browser is asked to draw at most 20 times a second."""
 
 
-@dataclass(frozen=True)
-class SharedServices:
-    pool: Processes
-    presentations: Presentations
-
-
 class TabContext:
     """The context of one page: its frame, the sliders of Explore, and what its parts share. Safe from any thread."""
 
@@ -42,18 +34,16 @@ class TabContext:
         self,
         client: viser.ClientHandle,
         start: PageState,
-        shared: SharedServices,
+        pool: Processes,
         callbacks: SessionCallbacks,
     ) -> None:
-        self.client, self.gui, self.bridge, self.pool = (
-            client,
-            client.gui,
-            Bridge(client),
-            shared.pool,
-        )
+        self.client = client
+        self.gui = client.gui
+        self.bridge = Bridge(client)
+        self.pool = pool
         self.wake, self.state = callbacks.wake, callbacks.state
         self.tracker, self.pinboard = PowerTracker(), Pinboard(start.analyses.solve)
-        self.analyses, self.work = start.analyses, LongWork(shared.pool, callbacks.wake)
+        self.analyses, self.work = start.analyses, LongWork(pool, callbacks.wake)
         self.keyboard, self.layout = Keyboard(client, self.bridge), Layout(client.gui, self.bridge)
         self.layout.watchers.append(callbacks.wake)
         self.display = Display(self.bridge, start.view, callbacks.wake, callbacks.azimuth_changed)
@@ -71,8 +61,6 @@ class TabContext:
         """Whether workers have still to answer what parts of the page asked."""
         self.leaving: list[Callable[[], None]] = []
         """Called once the browser has left: end threads and jobs."""
-        self.held = False
-        """Whether a presenter moves the page."""
         self.whole = threading.RLock()
         """Held while the page is put into another state, or read: no update sees half of one."""
 

@@ -67,7 +67,7 @@ class DesignControls:
         self._moving = threading.RLock()
         self._own: Inputs | None = None
         """The user's own inputs while the sliders show those of a preview."""
-        self._following = self._held = self._more = False
+        self._following = self._more = False
         self.pauses = LongestPause()
         self._units = SI
         """Units of the sliders of mass, altitude and climb now."""
@@ -110,21 +110,9 @@ class DesignControls:
                 return self._own
             return replace(self._special, stand=self.stand.stand, **self.form.values())
 
-    def shown(self) -> Inputs:
-        """What the widgets show: those of a preview, or what they mean."""
-        with self._moving:
-            return self.inputs() if self._own is None else self._special
-
     @property
     def aircraft(self) -> Aircraft:
         return (self._own or self._special).aircraft
-
-    def hold(self, held: bool) -> None:
-        """Take the widgets from the user, or give them back."""
-        self._held = held
-        self.form.hold(held)
-        self.stand.form.hold(held)
-        self.optimise_button.disabled = held
 
     def set_inputs(self, inputs: Inputs) -> None:
         """Move the widgets; the page follows as if they had been dragged."""
@@ -207,7 +195,6 @@ class DesignControls:
         chosen = tested or shown.aircraft.isolated
         self.stand.form.show({"trim": self._more or chosen})
         self._fold.content = _fold(folded, self._more, chosen)
-        self.form.disable(dict.fromkeys(law, self._held))
         if self._own is None:
             self.stand.follow(inputs)
         self._speed.content = _flight_heading(
@@ -257,14 +244,14 @@ class DesignControls:
 
     def _choose_rotor(self, name: str) -> None:
         """Another rotor of the menu, as it is built."""
-        if not self._held and name in menu_titles(self.inputs().own_rotor):
+        if name in menu_titles(self.inputs().own_rotor):
             self.pauses.moved(time.monotonic())
             self.set_inputs(with_rotor(self.inputs(), name))
 
     def _set_measured(self, case: str) -> None:
         """Set a measured flight or test of this rotor, by its name."""
         condition = condition_of(self.inputs().rotor, case)
-        if condition is not None and not self._held:
+        if condition is not None:
             self.stand.set_measured(condition)
 
 

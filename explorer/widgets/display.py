@@ -38,7 +38,7 @@ class Display:
         self.view = replace(start, difference=False)
         self._awaited = start.difference
         """B − A is to be shown as soon as there is an A."""
-        self._allowed = self._held = self._playing = self._faded = False
+        self._allowed = self._playing = self._faded = False
         self.fitted = False
         """Whether a fitted colour range was asked for, not the field's own."""
         self._shares: dict[str, str] = {}
@@ -48,7 +48,7 @@ class Display:
         bridge.on("field", lambda title: self._change(field=title) if title in FIELDS else None)
         bridge.on("region", self._switch_region)
         bridge.on("difference", lambda way: self._change(difference=way == "on" and self._allowed))
-        bridge.on("azimuth", self._turn_by_hand)
+        bridge.on("azimuth", self.turn)
         self._show_turn()
 
     def set_view(self, view: ViewState) -> None:
@@ -68,12 +68,6 @@ class Display:
     def set_playing(self, playing: bool) -> None:
         self._playing = playing
         self._show_turn()
-
-    def hold(self, held: bool) -> None:
-        """Take the rotor's part of the view from the user, or give it back; units and theme stay their own."""
-        self._held = held
-        self._show_turn()
-        self._show_field()
 
     def show_range(
         self,
@@ -104,8 +98,6 @@ class Display:
         self._changed()
 
     def _change(self, **values: Any) -> None:
-        if self._held:
-            return
         with self._lock:
             self.view = replace(self.view, **values)
         self._show_field()
@@ -115,12 +107,8 @@ class Display:
         if name in REGIONS or (name == "wipe" and self._allowed):
             self._change(**{name: not getattr(self.view, name)})
 
-    def _turn_by_hand(self, azimuth_deg: float) -> None:
-        if not self._held:
-            self.turn(float(azimuth_deg))
-
     def _show_turn(self) -> None:
-        self._bridge.set(turn=TurnPart(self.view.azimuth_deg, self._playing, self._held))
+        self._bridge.set(turn=TurnPart(self.view.azimuth_deg, self._playing))
 
     def _show_field(self) -> None:
         if self._range is None:
@@ -140,7 +128,6 @@ class Display:
                 difference=view.difference if self._allowed else None,
                 wipe=view.wipe,
                 beyond=self._beyond,
-                held=self._held,
             )
         )
 

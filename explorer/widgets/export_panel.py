@@ -3,7 +3,6 @@
 import io
 import json
 import logging
-import math
 import threading
 import time
 from collections.abc import Callable
@@ -16,26 +15,16 @@ from PIL import Image
 from viser.transforms import SO3
 
 from explorer.charts.plots import PowerCurves
-from explorer.export import film
 from explorer.export.blade import blade_stl
 from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.live import live_html
 from explorer.export.provenance import file_name, tables_zip
 from explorer.export.report import report_html
 from explorer.export.view_picture import CARDS, HEIGHT, SHAPES, view_png
-from explorer.hosting.browser import call
 from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
 from explorer.model.units import units_of
-from explorer.picture.camera_views import (
-    FIELD_OF_VIEW,
-    RIDE_VIEW,
-    Camera,
-    camera_axes,
-    riding,
-    seen_at,
-)
-from explorer.picture.element import AZIMUTHS, turn_of
+from explorer.picture.camera_views import FIELD_OF_VIEW, Camera, camera_axes, seen_at
 from explorer.picture.fields import FIELDS
 from explorer.scene.controller import SceneController
 from explorer.scene.still_scene import make_stage
@@ -65,22 +54,20 @@ class ExportPanel:
         history: HistoryPanel,
         actuator: ActuatorPanel,
         now: Callable[[], PageState],
-        place: Callable[[], tuple[float, float]],
     ) -> None:
-        """`now`: all that is known. `place`: of the probe, r/R and ψ [°]."""
+        """`now`: all that is known."""
         self._context, self._scene, self._history, self._actuator = (
             context,
             scene,
             history,
             actuator,
         )
-        self._now, self._place = now, place
+        self._now = now
         self._busy = threading.Lock()
         self._curves = PowerCurves()
         with context.gui.add_folder("Export"):
             for name, ending, make in (
                 ("Picture", ".png", self._picture),
-                ("Film of a turn", "-turn.gif", self._film),
                 ("Report", "-report.html", self._report),
                 ("Page that travels", "-page.html", _live),
                 ("Tables", "-tables.zip", self._tables),
@@ -133,53 +120,24 @@ class ExportPanel:
             scene, state.solution, self._scene.scale, line, state.view.dark, labels, bool(ground)
         )
 
-    def _film(self, state: SessionState) -> bytes:
-        """One turn with the section of the probe, seen as the page rides with it."""
-        solution, client, (r, psi_deg) = state.solution, self._context.client, self._place()
-        ride, frames = turn_of(solution, r, psi_deg), list[NDArray[np.uint8]]()
-        azimuths = [(round(psi_deg / 360.0 * AZIMUTHS) + k) % AZIMUTHS for k in range(AZIMUTHS)]
-        seat = {name: getattr(ride, name) for name in ("out", "eye", "look", "view")}
-        self._scene.camera.hold(True)
-        self._scene.play(True)
-        try:
-            for count, k in enumerate(azimuths):
-                self._say("busy", f"Film: picture {count + 1} of {AZIMUTHS} …")
-                psi = 2.0 * math.pi * k / AZIMUTHS
-                call(client, "rotorScene.ride", psi, seat)
-                frames.append(
-                    self._seen(riding(solution, ride.out, psi), RIDE_VIEW, film.WIDTH, film.HEIGHT)
-                )
-        finally:
-            call(client, "rotorScene.leave")
-            self._scene.play(False)
-            self._scene.camera.hold(False)
-        horizons = [
-            film.horizon(riding(solution, ride.out, 2.0 * math.pi * k / AZIMUTHS)) for k in azimuths
-        ]
-        return film.gif(frames, ride, azimuths, horizons, state.view.dark)
-
     def _render(self, width: int) -> tuple[NDArray[np.uint8], Camera]:
         """The scene, (HEIGHT, width, 4), as a camera sees it that is aimed for this alone."""
-        camera = self._scene.camera.composed(width / HEIGHT, CARDS)
-        return self._seen(camera, FIELD_OF_VIEW, width, HEIGHT), camera
-
-    def _seen(self, camera: Camera, view: float, width: int, height: int) -> NDArray[np.uint8]:
-        """The scene as this camera sees it at a vertical field of view [rad], (height, width, 4)."""
         if not self._scene.drawn:
             raise ValueError(
                 "This browser draws no 3D: export the report, or use a browser with WebGL."
             )
+        camera = self._scene.camera.composed(width / HEIGHT, CARDS)
         turn = SO3.from_matrix(np.stack(camera_axes(camera), axis=1)).wxyz
-        seen = {"wxyz": turn, "position": camera.position, "fov": view}
+        seen = {"wxyz": turn, "position": camera.position, "fov": FIELD_OF_VIEW}
         try:
             pixels = self._context.client.get_render(
-                height, width, **seen, transport_format="png", timeout=_PATIENCE
+                HEIGHT, width, **seen, transport_format="png", timeout=_PATIENCE
             )
-            if pixels.shape[:2] != (height, width):
+            if pixels.shape[:2] != (HEIGHT, width):
                 raise RuntimeError("The picture has another size.")
         except RuntimeError as error:  # The browser has left, or cannot draw.
             raise ValueError(f"The page sent no picture ({error}): press again.") from None
-        return pixels
+        return pixels, camera
 
     def _report(self, state: SessionState) -> bytes:
         """The present and the kept designs compared with A or the baseline, and the actuator chosen, as HTML."""

@@ -245,15 +245,11 @@ class WidgetForm:
     def call(self, name: str, label: str) -> None:
         self._handles[name].label = label
 
-    def disable(self, held: Mapping[str, bool]) -> None:
-        """Which widgets the user may not move."""
-        for name, inert in held.items():
-            if self._handles[name].disabled != inert:
-                self._handles[name].disabled = inert
-
-    def hold(self, held: bool) -> None:
+    def disable(self, disabled: bool) -> None:
         """Take all widgets from the user, or give them back."""
-        self.disable(dict.fromkeys(self._handles, held))
+        for handle in self._handles.values():
+            if handle.disabled != disabled:
+                handle.disabled = disabled
 
 
 _NONE = "–"

@@ -97,7 +97,7 @@ class HistoryPanel:
             self._field = gui.add_text(FIELD, "", hint=hint("take"))
         for name, act in (("undo", self.undo), ("redo", self.redo)):
             context.keyboard.bind(name, act)
-            context.bridge.on(name, lambda _, act=act: None if context.held else act())
+            context.bridge.on(name, lambda _, act=act: act())
         context.keyboard.bind("keep", self.keep)
         keep.on_click(lambda _: self.keep())
         by_hand(self._field, self._clicked)

@@ -169,11 +169,6 @@ class Shortcut:
 KEYS = {name: Shortcut(*row) for name, row in _FILE["commands"].items()}
 
 
-def is_for_presenter(name: str) -> bool:
-    """Whether a command is the presenter's while the page follows one: it moves the design, the disk or the lecture."""
-    return KEYS[name].group in ("Design", "Flight") or name.startswith(("field", "lecture"))
-
-
 def keys_help(bound: Iterable[str]) -> Markup:
     """The list of keys, by group, of the commands that this page has; as HTML."""
     known = set(bound)
@@ -197,8 +192,6 @@ class Keyboard:
     def __init__(self, client: viser.ClientHandle, bridge: Bridge) -> None:
         self._client = client
         self._commands: dict[str, viser.CommandHandle] = {}
-        self.held = False
-        """Whether a presenter has what is the presenter's."""
         self._acting = threading.Lock()
         """Two keys pressed at once must not both read the inputs before either has written them."""
         bridge.set(coarse=COARSE)
@@ -217,9 +210,8 @@ class Keyboard:
         command = self._client.gui.add_command(key.title, hotkey=hotkey, modifier=modifier)
 
         def act(_: Any) -> None:
-            if not (self.held and is_for_presenter(name)):
-                with self._acting:
-                    action()
+            with self._acting:
+                action()
 
         command.on_trigger(act)
         self._commands[name] = command

@@ -299,10 +299,6 @@ class ProbePanel:
         self._set(at.r, float(round(at.psi) % 360))
         self._context.layout.open_drawer("probe")
 
-    def place(self) -> tuple[float, float]:
-        """r/R and ψ [°] of the section."""
-        return self._r.value, self._psi.value
-
     def toggle(self) -> None:
         if self._player.playing or self._context.state() is None:
             self._pause()

@@ -81,7 +81,7 @@ class TwistCurveEditor:
 
     def grab(self, r: float, by_key: bool = False) -> None:
         """The blade was pressed at r/R, or is to be twisted by key: the page shows it from the tip."""
-        grab = None if self._context.held else drag_from(self._context.inputs(), r)
+        grab = drag_from(self._context.inputs(), r)
         if grab is None:
             return
         self._begin(grab)
@@ -140,7 +140,7 @@ class TwistCurveEditor:
             station = next(
                 (station for station in stations(start) if str(station.index) == name), None
             )
-            if station is not None and not self._context.held:
+            if station is not None:
                 self._begin(StationDrag(start, station))
         elif change in ("end", "undo"):
             if self._grab is not None:
@@ -149,7 +149,7 @@ class TwistCurveEditor:
                 self._grab, self._place, self._shown = None, "", False
                 self._context.bridge.set(twisting=None)
                 self._changed(False)
-        elif isinstance(change, KnotMove) and not self._context.held:
+        elif isinstance(change, KnotMove):
             self._move(name, change)
 
     def _begin(self, grab: StationDrag) -> None:

@@ -162,7 +162,7 @@ class SceneViews:
         )
 
     def put(self, wanted: ScreenState) -> None:
-        """Show this, all at once. Units and theme stay, because they belong to the room, not to the design."""
+        """Show this, all at once; units and theme stay as the user has them."""
         context, layout = self._context, self._context.layout
         with context.whole:
             view = context.display.view

@@ -1,9 +1,9 @@
-"""The lecture and the presenter on the real page."""
+"""The lecture on the real page."""
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
-from test_session_page import design_in_address, shown_kw
-from watched import COARSE, Visit, Watched
+from test_session_page import design_in_address
+from watched import Visit
 
 from explorer.story.steps import STEPS
 
@@ -22,16 +22,6 @@ def stands_at(page: Page, step: int) -> None:
 
 def section(page: Page, step: int) -> Locator:
     return page.locator(f'.rxs-list > [data-step="{step}"]')
-
-
-def presenting(visit: Visit) -> tuple[Watched, str]:
-    """A page that presents, and the link of its followers."""
-    presenter = visit()
-    presenter.drawer("lecture")
-    presenter.page.get_by_role("button", name="Present", exact=True).click()
-    link = presenter.page.locator('[data-explorer="presentation"] a').get_attribute("href")
-    assert link is not None
-    return presenter, link
 
 
 @pytest.mark.slow
@@ -115,91 +105,3 @@ def test_a_scroll_by_hand_is_a_step_and_a_new_layout_none(visit: Visit):
     page.wait_for_function(at_its_place)
     watched.answered()
     assert page.evaluate("() => RX.state.lecture.at") == 3
-
-
-@pytest.mark.slow
-def test_a_presenter_and_a_follower_go_through_the_lecture_together(visit: Visit):
-    """Two browsers: step, guess, answer, control and handle of the one are those of the other."""
-    presenter, link = presenting(visit)
-    page = presenter.page
-    follower = visit(COARSE + link.replace("?", "&"))
-    other = follower.page
-    follower.reads("presentation", "the presenter controls")
-    page.keyboard.press("t")
-    for k in (1, 2, 3):
-        stands_at(page, k)
-        stands_at(other, k)
-        moved = section(other, k).locator("[data-stop], .rxs-guess button")
-        follower.until(
-            lambda moved=moved: all(
-                one.is_disabled()
-                for one in (*moved.all(), *other.locator(".rxs-dots button").all())
-            )
-        )
-        other.get_by_role("button", name="Next", exact=True).wait_for(state="hidden")
-        section(page, k).locator(".rxs-guess button").last.click()
-        other.wait_for_function("() => RX.state.lecture.answer")
-        presenter.answered()
-        follower.answered()
-        told = page.locator(FIGURES).all_inner_texts()
-        follower.until(lambda told=told: other.locator(FIGURES).all_inner_texts() == told)
-        if k < 3:
-            page.keyboard.press("PageDown")
-    section(page, 3).locator("[data-stop]").press("Home")
-    other.wait_for_function("() => RX.state.lecture.stop === 0")
-    design_in_address(follower, "linear:0;")
-    page.get_by_role("slider", name="Between A").press("ArrowRight")
-    other.wait_for_function("() => Math.abs(rotorWipe.at - 0.55) < 1e-6")
-    steps = other.locator(".rxs-list")  # The follower's column stands at the same step.
-    follower.until(
-        lambda: steps.evaluate("list => Math.abs(list.scrollTop - list.children[2].offsetTop) < 40")
-    )
-    page.keyboard.press("t")
-    other.wait_for_selector('[data-explorer="lecture"]', state="hidden")
-
-
-@pytest.mark.slow
-def test_others_follow_the_presenter_and_may_leave(visit: Visit):
-    presenter, link = presenting(visit)
-    page = presenter.page
-    present = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').present"
-    secret = page.wait_for_function(present).json_value()
-    assert secret not in page.url  # Whoever is sent the address must not become the presenter.
-    page.reload()
-    page.wait_for_selector('[data-explorer="presentation"] a')  # The page itself presents on.
-    assert page.locator('[data-explorer="presentation"] a').get_attribute("href") == link
-    follower = visit(COARSE + link.replace("?", "&"))
-    other = follower.page
-    follower.reads("presentation", "the presenter controls")
-    presenter.reads("presentation", "1 follower")
-    before = shown_kw(follower)
-    presenter.type("Adv. ratio", 0.3)
-    presenter.until_changed(lambda: shown_kw(presenter), before)
-    design_in_address(presenter, "mu=0.3")
-    presenter.answered()
-    shown = shown_kw(presenter)
-    assert shown != before
-    follower.until(lambda: shown_kw(follower) == shown)
-    follower.type("Adv. ratio", 0.2)  # Read-only: it goes back.
-    here = shown_kw(presenter)
-    follower.answered()
-    follower.until(lambda: shown_kw(follower) == here)
-    design_in_address(follower, "mu=0.3")
-    other.keyboard.press("Escape")
-    for key in ("h", "t", "p"):  # Nor do its keys move it, nor its buttons.
-        other.keyboard.press(key)
-    follower.until(other.get_by_role("button", name="Pin A").is_disabled)
-    follower.answered()
-    assert not other.locator('[data-explorer="lecture"]').is_visible()
-    design_in_address(follower, "mu=0.3")
-    assert "&a=" not in other.url
-    other.get_by_role("button", name="Leave and continue alone").click()
-    other.wait_for_function("() => !location.search.includes('follow=')")
-    there = shown_kw(follower)
-    presenter.type("Adv. ratio", 0.1)
-    presenter.until_changed(lambda: shown_kw(presenter), there)
-    presenter.answered()
-    follower.answered()
-    assert shown_kw(follower) == there
-    follower.type("Adv. ratio", 0.2)
-    follower.until_changed(lambda: shown_kw(follower), there)

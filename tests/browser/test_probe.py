@@ -237,6 +237,16 @@ def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
     page.get_by_role("button", name="Turn the rotor").wait_for()
 
 
+SEAT = """out => {
+    const viewer = window.__viserMutable, blade = viewer.nodeRefFromName['/rotor/blade_0'];
+    blade.updateWorldMatrix(true, false);
+    const at = blade.position.clone().set(out, 0, 0).applyMatrix4(blade.matrixWorld).project(viewer.camera);
+    const horizon = getComputedStyle(document.documentElement).getPropertyValue('--rx-horizon');
+    return [(at.x + 1) / 2, (1 - at.y) / 2, parseFloat(horizon) / 100];
+}"""
+"""Where the section so far from the hinge [m] is on the canvas, from the left and from above, and the horizon."""
+
+
 @pytest.mark.slow
 def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched):
     page = watched.page
@@ -252,6 +262,14 @@ def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched)
     # Beside the blade; elsewhere it sees the disk.
     watched.until(lambda: np.linalg.norm(eye(watched)) < 1.5 * RADIUS)
     assert card.locator("circle").count() == 1
+    page.wait_for_timeout(1000)  # Until the camera has its seat.
+    out = place[1] - uh60a_rotor("flight").blade.flap_hinge * RADIUS
+    for _ in range(4):
+        across, down, horizon = page.evaluate(SEAT, out)
+        assert 0.3 < across < 0.7
+        assert 0.02 < horizon < 0.35
+        assert horizon < down < 0.8
+        page.wait_for_timeout(1500)
     page.keyboard.press("Escape")
     card.wait_for(state="hidden")
     page.wait_for_function("() => !RX.state.ride")

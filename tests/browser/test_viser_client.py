@@ -156,7 +156,7 @@ def test_a_still_page_is_hardly_drawn_in_software(watched: Watched):
 
 
 def test_a_hidden_tab_computes_nothing_until_it_is_seen(watched: Watched, app: App):
-    """What moves meanwhile, as by a presenter, a rotor that plays or a lecture, is one update when it is seen."""
+    """What moves meanwhile, as a rotor that plays, is one update when it is seen."""
     page, session = watched.page, app.sessions[-1]
     see = """hidden => {
         Object.defineProperty(document, 'hidden', {configurable: true, value: hidden});

@@ -34,7 +34,7 @@ from explorer.text.readout import balance, limit_words
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
 from explorer.views.flight import BY_HAND
-from explorer.views.page_state import OpenPanels, SetHand
+from explorer.views.page_state import SetHand
 from explorer.workers import background
 from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
@@ -409,8 +409,6 @@ def test_where_there_is_no_such_design_the_sentence_stands_alone():
     assert sorted(shown) == ["actuator.form", "actuator.verdict"]
     assert "S-61" in shown["actuator.verdict"]
     assert shown["actuator.form"].inert  # None fits.
-    held = replace(actuate(INPUTS), ui=OpenPanels("actuate", held=True))
-    assert ACTUATOR.view(held)["actuator.form"].inert
     assert ACTUATOR.asks(other) == ()
 
 

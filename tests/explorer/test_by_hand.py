@@ -1,6 +1,7 @@
-"""What a hand does to a page, sent as a browser sends it: one undo for a drag, nothing on a page that is held."""
+"""What a hand does to a page, sent as a browser sends it: drags and their undo, presses, a game, links."""
 
 import asyncio
+import logging
 from collections.abc import Callable, Coroutine, Iterator
 from dataclasses import replace
 from typing import Any
@@ -12,9 +13,11 @@ from explorer.model import undo
 from explorer.model.inputs import OPENING
 from explorer.page import Page
 from explorer.parts.presses import PRESSES
-from explorer.sharing.presentation import follow_name
-from explorer.sharing.share import code_of
+from explorer.sharing.game import Game
+from explorer.sharing.share import DESIGN, code_of, with_parameter
 from explorer.widgets.lecture.lecture_panel import LecturePanel
+from explorer.widgets.optimise.hand_game import GAME
+from rotor import make_design
 from tests.tools.visitor import Visitor, arrived, part_of, ran
 
 SENT: dict[str, Any] = {
@@ -24,7 +27,7 @@ SENT: dict[str, Any] = {
     "difference": "on",
     "more": "on", "ride": [0.8, 90.0], "azimuth": 30.0, "fly": 1.5, "suppose": "on", "balance": "here",
     "against": "best-fixed", "state": "stopped", "section": [0.8, 90.0], "map_at": [0.2, 0.8], "pull": 0.5,
-    "wiped": 0.4, "covered": [0.1, 0.2], "view": "disk", "colours": "Rescale", "lecture": "next",
+    "covered": [0.1, 0.2], "view": "disk", "colours": "Rescale", "lecture": "next",
     "knot": ["2", [None, -5.0]], "dial": [[3, 1.0, 60.0]],
     "kind": "AFC", "scene": "lost", "seen": True,
 }  # fmt: skip
@@ -101,7 +104,7 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
 
 
 def flown(page: Page) -> tuple[object, ...]:
-    """All that a presenter leads."""
+    """Design, actuator, field, A and what is made with them."""
     view, hand = page.context.display.view, page.actuator.hand()
     run, optimised, place = (
         page.optimise.run,
@@ -112,23 +115,23 @@ def flown(page: Page) -> tuple[object, ...]:
             hand.actuator.drives, view.field, view.difference, place)  # fmt: skip
 
 
-def test_no_press_changes_a_page_that_a_presenter_holds(app: App):
+def test_no_press_fails(app: App, caplog: pytest.LogCaptureFixture):
+    """Each acts on what those before it have left."""
     assert {name for name, kind in PRESSES.items() if kind is not None} == {*SENT, "idle"}
 
     async def press(visitor: Visitor, page: Page) -> None:
-        before = flown(page)
-        for name in PRESSES.keys() - {"idle"}:
-            await visitor.press(name, SENT.get(name))
+        for name in PRESSES:
+            caplog.clear()
+            if name != "idle":
+                await visitor.press(name, SENT.get(name))
             await visitor.idle(wholly=False)
-            assert (name, flown(page)) == (name, before)
+            said = [one.getMessage() for one in caplog.records if one.levelno >= logging.WARNING]
+            assert (name, said) == (name, [])
 
-    assert app.presentations.claim("a-secret", "page", app)
-    visited(app, press, f"?follow={follow_name('a-secret')}")
+    visited(app, press)
 
 
-def test_presses_change_a_page_that_is_free(app: App):
-    """Else the test above could not fail."""
-
+def test_presses_change_the_page(app: App):
     async def press(visitor: Visitor, page: Page) -> None:
         for name in ("pin", "slide", "rotor", "undo", "mode", "suppose"):
             before = flown(page)
@@ -214,6 +217,59 @@ def test_a_page_loaded_again_has_its_design_and_its_steps(app: App):
         await again.close()
 
     visited(app, load)
+
+
+def test_a_game_is_played_by_its_link(app: App):
+    design = replace(OPENING, inflow="drees", elements=20, azimuths=36).design()
+    start, least = (
+        replace(design, twist=make_design(twist=spec).twist) for spec in ("linear:-4", "linear:-12")
+    )
+    query = with_parameter("", DESIGN, code_of(start))
+
+    async def play(visitor: Visitor, page: Page) -> None:
+        standing = page.optimise.hand.standing
+        assert standing is not None
+        assert standing.best is standing.start
+        await visitor.move("Rate [°/R]", -8.0)
+        await visitor.idle(wholly=False)
+        standing = page.optimise.hand.standing
+        assert standing is not None
+        assert standing.best.design == page.context.inputs().design()
+        assert standing.least.power.total < standing.best.power.total < standing.start.power.total
+        assert visitor.frame["notice"]["text"].startswith("Least with these sliders")
+        await visitor.press("game_take")
+        await visitor.idle(wholly=False)
+        assert page.context.inputs().design().twist == least.twist
+        assert page.optimise.hand.game is None
+        await visitor.until(lambda: f"{GAME}=" not in visitor.query)
+
+    visited(app, play, with_parameter(query, GAME, Game(start, least).code()))
+
+
+@pytest.mark.parametrize(
+    ("part", "sentence"),
+    [
+        ("follow=3f1c2d5e8a90", "'follow' was left out: a page no longer follows another."),
+        ("present=a-secret", "'present' was left out: a page no longer leads others."),
+    ],
+)
+@pytest.mark.parametrize("before", [True, False])
+def test_a_link_of_an_earlier_version_opens_and_says_what_was_left_out(
+    app: App, part: str, sentence: str, before: bool
+):
+    design = "d=1;linear:-8;mu=0.3"
+
+    async def look(visitor: Visitor, page: Page) -> None:
+        inputs = page.context.inputs()
+        assert (inputs.law, inputs.linear, inputs.advance_ratio) == ("linear", -8.0, 0.3)
+        (notice,) = visitor.notices
+        assert notice.endswith(f": {sentence}")
+        # Nor does the link of this page hold it.
+        await visitor.until(lambda: visitor.query == f"?{design}")
+        await visitor.move("Rate [°/R]", -9.0)
+        await visitor.until(lambda: "linear:-9" in visitor.query)
+
+    visited(app, look, f"?{part}&{design}" if before else f"?{design}&{part}")
 
 
 def test_a_voltage_is_a_step_of_its_own(app: App):

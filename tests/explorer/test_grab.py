@@ -238,7 +238,6 @@ def editor_of(inputs: Inputs) -> tuple[TwistCurveEditor, Bridge, list[Inputs], l
     page: Any = SimpleNamespace(
         inputs=lambda: now[0],
         drag_to=lambda new: now.__setitem__(0, new),
-        held=False,
         state=lambda: None,
         bridge=bridge,
         keyboard=SimpleNamespace(bind=lambda *_: None),

@@ -12,7 +12,7 @@ import viser
 from fake_bridge import Bridge
 from viser import _messages
 
-from explorer.widgets.layout import KEYS, Keyboard, is_for_presenter, keys_help
+from explorer.widgets.layout import KEYS, Keyboard, keys_help
 
 SHIFT, CTRL, CTRL_SHIFT = "shift", "cmd/ctrl", "cmd/ctrl+shift"
 TAKEN_BY_THE_CAMERA = set("WASDQE")
@@ -83,18 +83,3 @@ class TestKeyboard:
             keyboard.bind("jump", lambda: None)
         with pytest.raises(ValueError, match="'keys' has its action already"):
             keyboard.bind("keys", lambda: None)
-
-
-def test_who_follows_a_presenter_keeps_what_is_seen_not_what_is_flown():
-    free = {name for name in KEYS if not is_for_presenter(name)}
-    assert {"view_top", "units", "dark", "keys", "probe_out"} <= free
-    assert not free & {
-        "hover",
-        "pin",
-        "undo",
-        "reset",
-        "optimise",
-        "lecture",
-        "lecture_next",
-        "field_next",
-    }

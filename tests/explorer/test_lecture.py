@@ -369,7 +369,7 @@ def test_a_sentence_waits_for_its_numbers():
 
 def test_an_answer_that_comes_as_the_lecture_ends_shows_nothing(monkeypatch: pytest.MonkeyPatch):
     sent: list[Any] = []
-    context = Mock(held=False)
+    context = Mock()
     context.display.view, context.inputs.return_value, context.state.return_value = (
         ViewState(),
         Inputs(),

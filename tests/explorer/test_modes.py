@@ -1,4 +1,4 @@
-"""Every mode after every other, for presenter and follower: one total power, that of the design on the sliders."""
+"""Every mode after every other: one total power, that of the design on the sliders."""
 
 from collections.abc import Callable
 from functools import cache
@@ -9,7 +9,6 @@ import msgspec
 from explorer.app import App
 from explorer.model.actuator_inputs import MOST_SEGMENTS
 from explorer.page import Page
-from explorer.sharing.presentation import PRESENT, follow_name
 from explorer.story.steps import STEPS
 from explorer.views.assessed import ACTUATOR_CARD
 from rotor import Design, solve
@@ -21,7 +20,6 @@ WALK = [MODES[k] for i in range(len(MODES)) for j in range(i + 1, len(MODES)) fo
     MODES[0]
 ]
 """Each ordered pair once."""
-SECRET = "a-secret"
 DRIVEN = (77.0,) + (0.0,) * (MOST_SEGMENTS - 1)
 
 
@@ -104,39 +102,17 @@ async def go(visitor: Visitor, mode: str, view: str) -> tuple[str, str | None]:
 
 def test_every_mode_after_every_other_shows_the_power_of_the_design(app: App):
     async def visit() -> None:
-        presenter = await arrived(app.address, kept={PRESENT: SECRET}, page="one")
-        follower = await arrived(app.address, query=f"?follow={follow_name(SECRET)}")
-        both = tuple(
-            zip((presenter, follower), [session.page for session in app.sessions], strict=True)
-        )
-        (_, leader), (_, led) = both
+        visitor = await arrived(app.address)
+        page = app.sessions[0].page
         for k, place in enumerate(WALK):
-            mode, look = await go(presenter, place, ("3d", "disk", "side")[k % 3])
+            mode, look = await go(visitor, place, ("3d", "disk", "side")[k % 3])
             # Once a flight is known, the voltages follow it until Actuate is left.
-            flown = look == "actuator"
-            await presenter.press(
-                *(
-                    ("fly", 1.0 + 0.06 * k)
-                    if flown
-                    else ("slide", ["advance_ratio", 0.1 + 0.005 * k])
-                )
-            )
-            for visitor, page in both:
-                await right(visitor, page, mode, look)
-            await follower.until(lambda: design_of(led) == design_of(leader))
-        await presenter.close()
-        await follower.until(
-            lambda: follower.text("presentation").startswith("The presenter has left"), 10.0
-        )
-        await follower.press("slide", ["advance_ratio", 0.3])  # The page is the follower's.
-        await follower.until(lambda: led.context.controls.inputs().advance_ratio == 0.3)
-        await right(follower, led)
-        again = await arrived(app.address, kept={PRESENT: SECRET}, page="two")
-        # What was changed meanwhile stays.
-        await follower.until(lambda: not follower.text("presentation"))
-        assert led.context.controls.inputs().advance_ratio == 0.3
-        for visitor in (again, follower):
-            await visitor.close()
+            if look == "actuator":
+                await visitor.press("fly", 1.0 + 0.06 * k)
+            else:
+                await visitor.press("slide", ["advance_ratio", 0.1 + 0.005 * k])
+            await right(visitor, page, mode, look)
+        await visitor.close()
 
     ran(visit)
 

@@ -109,17 +109,17 @@ def test_a_question_waits_only_as_long_as_hands_have_not_been_still(
     assert [round(delay, 3) for _, _, delay in asked] == [0.15, 0.0, 0.1]
 
 
-def test_a_press_does_what_it_says_but_while_the_page_is_held_it_only_lets_go():
-    page = page_of(Panel(shown, presses={"wiped": pressed}))
-    page.bridge.press("wiped", 0.2)
+def test_a_press_does_what_it_says_but_where_its_panel_is_not_seen_it_only_lets_go():
+    page = page_of(Panel(shown, lambda ui: ui.mode == "explore", presses={"pull": pressed}))
+    page.bridge.press("pull", 0.2)
     assert page.done == [
         SetGrabbed(False),
         MoveSliders(replace(OPENING, advance_ratio=0.2)),
         MoveSliders(OPENING, by_hand=False),
     ]
     page.done.clear()
-    page.now = replace(NOW, ui=OpenPanels(held=True))
-    page.bridge.press("wiped", 0.2)
+    page.now = replace(NOW, ui=OpenPanels("optimise"))
+    page.bridge.press("pull", 0.2)
     assert page.done == [SetGrabbed(False)]
 
 

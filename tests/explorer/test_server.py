@@ -154,13 +154,6 @@ class TestControls:
         for inputs, shown in ((built, False), (changed, True), (built, False)):
             controls.refresh(inputs, SI)
             assert place.visible is shown
-        controls.hold(True)
-        controls.refresh(changed, SI)
-        assert place.disabled
-        controls.hold(False)
-        controls.refresh(changed, SI)
-        assert not place.disabled
-        assert not controls.form._handles["built_outer"].disabled
 
     def test_only_the_sliders_of_the_law_show(self, controls: DesignControls):
         def shown(inputs: Inputs) -> set[str]:

@@ -97,7 +97,7 @@ def session(monkeypatch: pytest.MonkeyPatch) -> Session:
     monkeypatch.setattr(plots, "_FEW", (0, 1, 2, 3))
     monkeypatch.setattr(plots, "_FEWEST", (0, 1, 2, 3))
     client: Any = SimpleNamespace(client_id=1)
-    made = Session(client, Inputs(), PageFacts(), shared=SimpleNamespace())  # pyright: ignore[reportArgumentType]
+    made = Session(client, Inputs(), PageFacts(), pool=SimpleNamespace())  # pyright: ignore[reportArgumentType]
     made._worker = NewestWins(made._update, made._failed, UpdatePool(0))
     return made
 
@@ -134,7 +134,7 @@ def test_a_wake_before_the_page_is_whole_waits_for_the_start(monkeypatch: pytest
     monkeypatch.setattr(session_module, "Page", WakingPage)
     monkeypatch.setattr(Session, "_failed", lambda _, error: failures.append(error))
     client: Any = SimpleNamespace(client_id=1)
-    made = Session(client, Inputs(), PageFacts(), shared=SimpleNamespace())  # pyright: ignore[reportArgumentType]
+    made = Session(client, Inputs(), PageFacts(), pool=SimpleNamespace())  # pyright: ignore[reportArgumentType]
     made.start()
     assert shown.wait(300.0)  # The kernels may have to be compiled.
     made._worker.stop()

@@ -177,14 +177,13 @@ def test_a_slider_with_other_ends_never_has_its_value_outside(
     assert all(least <= place <= most for least, place, most in seen)
 
 
-def test_what_is_shown_and_held(form: WidgetForm):
+def test_widgets_are_hidden_by_name_and_disabled_together(form: WidgetForm):
     handles: dict[str, Any] = form._handles
     form.show({"altitude_m": False})
     assert not handles["altitude_m"].visible
     assert not form._below["altitude_m"].visible
     assert handles["preset"].visible
-    form.hold(True)
+    form.disable(True)
     assert all(handle.disabled for handle in handles.values())
-    form.disable({"preset": False})
-    assert not handles["preset"].disabled
-    assert handles["span"].disabled
+    form.disable(False)
+    assert not any(handle.disabled for handle in handles.values())

@@ -36,13 +36,8 @@ _KIND = re.compile(r'data-kind="(\w+)"')
 class Visitor:
     """One connection, from `open` to `close`."""
 
-    def __init__(self, query: str = "", kept: dict[str, str] | None = None, page: str = "") -> None:
-        self._facts: dict[str, Any] = {
-            "dark": False,
-            "query": query,
-            "kept": kept or {},
-            "page": page,
-        }
+    def __init__(self, query: str = "", kept: dict[str, str] | None = None) -> None:
+        self._facts: dict[str, Any] = {"dark": False, "query": query, "kept": kept or {}}
         """What the page answers when it is asked; query: what follows the address, kept: texts the server gave it."""
         self._socket: ClientConnection | None = None
         self._reading: asyncio.Task[None] | None = None

@@ -99,7 +99,7 @@ class ActuatorControls:
         self.form.show(look.seen)
         for name, label in look.labels.items():
             self.form.call(name, label)
-        self.form.hold(look.inert)
+        self.form.disable(look.inert)
 
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name in DRIVES:

@@ -1,1 +1,1 @@
-"""The lecture, flights and cases to begin from, presenting and following."""
+"""The lecture, and flights and cases to begin from."""

@@ -5,7 +5,7 @@ Also the flights and designs of the source document to begin from.
 
 import threading
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -17,7 +17,6 @@ from explorer.model.session_state import ScreenState, SessionState, same_but_fli
 from explorer.model.units import UNITS, Units
 from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
-from explorer.sharing.presentation import StoryPlace
 from explorer.story.facts import StepFacts, facts_at, words_of
 from explorer.story.records import answer_record, step_record
 from explorer.story.steps import STEPS, Figure, compared_inputs, compared_quantities, view_of
@@ -65,6 +64,17 @@ _NO_CASE = "–"
 _WORDS = "Ten steps. Each sets the page, asks you to guess and gives the answer. End restores your design."
 
 
+@dataclass(frozen=True)
+class StoryPlace:
+    """Where the lecture stands."""
+
+    step: int
+    guess: int | None = None
+    """The answer that was chosen; None before."""
+    stop: int = 0
+    """Position of the step's control."""
+
+
 class LecturePanel:
     """The lecture of a session. Buttons act at once; the numbers follow the session."""
 
@@ -101,19 +111,16 @@ class LecturePanel:
         self._begin = gui.add_button(
             "Start the lecture", icon=viser.Icon.SCHOOL, hint=hint("lecture")
         )
-        self._flights = gui.add_button_group(
-            "Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights")
-        )
+        flights = gui.add_button_group("Fly at µ", tuple(FLIGHTS), hint=hint("lecture_flights"))
         self._case = gui.add_dropdown("Cases", (_NO_CASE, *CASES), hint=hint("document_case"))
         self._begin.on_click(lambda _: self.toggle())
-        self._flights.on_click(lambda event: self._fly(FLIGHTS[event.target.value]))
+        flights.on_click(lambda event: self._fly(FLIGHTS[event.target.value]))
         by_hand(self._case, self._case_chosen)
         on = context.bridge.on
         on("lecture", self._pressed)
         on("story", self._step_requested)
         on("guess", self._guessed)
         on("stop", self._stop_requested)
-        on("wiped", self._wiped)
         bind = context.keyboard.bind
         bind("lecture", self.toggle)
         bind("lecture_next", lambda: self.go(1))
@@ -157,22 +164,6 @@ class LecturePanel:
             self._camera.aim_with(
                 lambda aspect: wanted.shot.fit(self._camera.radius, aspect), eased=True
             )
-
-    def follow(self, place: StoryPlace | None) -> None:
-        """Show the place of another page, which sets the rest."""
-        if place == self.place:
-            return
-        before, self._against = self.place, None
-        self._stand_at(place)
-        self._context.bridge.set(wiped=0.5 if place is None else place.wipe)
-        if before is None or place is None or before.step != place.step:
-            self._stage()
-
-    def hold(self, held: bool) -> None:
-        """Take what moves the page from the user, or give it back."""
-        self._begin.disabled = self._case.disabled = held
-        self._flights.visible = not held
-        self._show()
 
     def end(self) -> None:
         """The steps go, and the visitor's own design, view and A come back."""
@@ -239,7 +230,7 @@ class LecturePanel:
     def _facts_received(self) -> None:
         """A step's numbers are there: those of the one that stands also put its control where they say."""
         place = self.place
-        if place is not None and not self._context.held and self._facts(place.step) is not None:
+        if place is not None and self._facts(place.step) is not None:
             step = STEPS[place.step]
             if place.stop == step.control.start and self._context.inputs() == self._kept(
                 step.begin()
@@ -320,7 +311,6 @@ class LecturePanel:
                 figures=[(caption, one.value, one.within) for caption, one in shown],
                 busy=state is None,
                 problem=answer if isinstance(answer, str) else "",
-                held=self._context.held,
             ),
         )
 
@@ -344,7 +334,7 @@ class LecturePanel:
         return replace(inputs, own_rotor=self._context.inputs().own_rotor)
 
     def _pressed(self, which: Any) -> None:
-        if self._context.held or self.place is None:
+        if self.place is None:
             return
         match which:
             case "back":
@@ -356,12 +346,12 @@ class LecturePanel:
 
     def _step_requested(self, step: Any) -> None:
         """A dot was pressed, or the steps were scrolled."""
-        if not self._context.held and self.place is not None and int(step) != self.place.step:
+        if self.place is not None and int(step) != self.place.step:
             self.set(min(max(int(step), 0), len(STEPS) - 1))
 
     def _guessed(self, answer: Any) -> None:
         place = self.place
-        if self._context.held or place is None or place.guess is not None:
+        if place is None or place.guess is not None:
             return
         if 0 <= int(answer) <= len(STEPS[place.step].bounds):
             self._guesses[place.step] = int(answer)
@@ -370,22 +360,17 @@ class LecturePanel:
     def _stop_requested(self, stop: Any) -> None:
         place = self.place
         facts = None if place is None else self._facts(place.step)
-        if self._context.held or place is None or facts is None:
+        if place is None or facts is None:
             return
         place = replace(place, stop=min(max(int(stop), 0), len(facts.stops) - 1))
         if place != self.place:
             self._change(place)
             self._move()
 
-    def _wiped(self, share: Any) -> None:
-        if not self._context.held and self.place is not None:
-            self._change(replace(self.place, wipe=float(share)))
-
     def _change(self, place: StoryPlace) -> None:
         """Another place within the step."""
         self.place = place
         self._show()
-        self._context.wake()
 
 
 def _task(step: int) -> Call:

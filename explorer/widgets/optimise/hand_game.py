@@ -81,7 +81,7 @@ class HandGame:
 
     def _take(self) -> None:
         """The search's twist onto the sliders: the game is over."""
-        if self.game is not None and not self._context.held:
+        if self.game is not None:
             least = self.game.least
             self.begin(None)
             self._set(least)

@@ -114,7 +114,7 @@ class MapPanel:
 
     def _take(self, place: MapPress) -> None:
         """The map was clicked: its design there goes onto the sliders."""
-        if self.map is not None and not self._context.held:
+        if self.map is not None:
             self._context.set_inputs(
                 with_optimum(self._context.inputs(), self.map.at(place.x, place.y))
             )

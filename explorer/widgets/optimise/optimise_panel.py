@@ -164,12 +164,6 @@ class OptimisePanel:
             self._context.tracker.reset()
             self._context.wake()
 
-    def hold(self, held: bool) -> None:
-        """Leave the page to a presenter, whose design is shown in place of a search, or give it back."""
-        self._buttons.begin.disabled = held
-        if held:
-            self.withdraw()
-
     def toggle(self) -> None:
         """Start a search, or stop the one under way."""
         run = self.run

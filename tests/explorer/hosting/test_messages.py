@@ -289,7 +289,7 @@ def test_the_messages_are_those_of_viser():
 
 
 @pytest.mark.parametrize(
-    "text", ["", "[1]", "{", '{"query": 5}', '{"kept": {"d": 1}}', json.dumps({"page": "x" * 41})]
+    "text", ["", "[1]", "{", '{"query": 5}', '{"kept": {"d": 1}}', '{"scene": "painted"}']
 )
 def test_facts_that_no_page_of_ours_tells_are_none(text: str, caplog: pytest.LogCaptureFixture):
     with caplog.at_level(logging.WARNING):
@@ -298,8 +298,8 @@ def test_facts_that_no_page_of_ours_tells_are_none(text: str, caplog: pytest.Log
 
 
 def test_facts_of_a_page_are_read():
-    told = {"dark": True, "query": "?d=1;linear:-8", "kept": {"d": "{}"}, "page": "abc"}
-    assert read_facts(json.dumps(told)) == PageFacts(True, "?d=1;linear:-8", {"d": "{}"}, "abc")
+    told = {"dark": True, "query": "?d=1;linear:-8", "kept": {"d": "{}"}, "scene": "lost"}
+    assert read_facts(json.dumps(told)) == PageFacts(True, "?d=1;linear:-8", {"d": "{}"}, "lost")
     assert read_facts("{}") == PageFacts()
 
 
