@@ -198,9 +198,9 @@ def validation_words() -> str:
     most = -min(low for low, _ in vibration)
     powers = [-one.power_percent for one in tested if one.power_percent]
     return (
-        "Not validated: we found no measured power saving by active twist; published savings by it are computed. In wind "
-        f"tunnels, n/rev root pitch saved {number(min(powers))} to {number(max(powers))} % of power, and n/rev pitch or "
-        f"twist reduced vibration by {number(least)} to {number(most)} %."
+        "Not validated: we found no measured power saving by active twist; published savings by it are computed. "
+        f"In wind tunnels, n/rev root pitch saved {number(min(powers))} to {number(max(powers))} % of power, and "
+        f"n/rev pitch or twist reduced vibration by {number(least)} to {number(most)} %."
     )
 
 

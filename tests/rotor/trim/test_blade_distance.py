@@ -11,6 +11,7 @@ from scipy.integrate import quad
 
 import rotor
 from rotor.design.design import Design
+from rotor.support.assets import toml_asset
 from rotor.trim.blade_distance import blade_distance, twist_difference
 from rotor.trim.doubt import HOVER_BLADE, Doubt, doubt, other_models
 from rotor.trim.low_speed import hover_share
@@ -139,8 +140,9 @@ def test_the_sign_of_a_small_change_is_not_sure_by_construction():
 
 
 @pytest.mark.slow
-def test_the_guide_says_what_models_make_of_twist_in_hover():
+def test_guide_and_trust_page_say_what_models_make_of_twist_in_hover():
     guide = (Path(__file__).parents[3] / "docs/guide/doubt.md").read_text(encoding="utf-8")
+    page = toml_asset("trust_sets.toml")["doubt"]["text"][2]
     twists = {twist: hovering(twist) for twist in ("linear:0", "linear:-8", "linear:-16")}
 
     def saved(family: dict[str, Design]) -> str:
@@ -150,8 +152,9 @@ def test_the_guide_says_what_models_make_of_twist_in_hover():
         return words.replace("-", "−")
 
     slow = {twist: other_models(each)["inflow lifting-line"] for twist, each in twists.items()}
-    assert f"say {saved(twists)} % of the power" in guide
-    assert f"a lifting line near hover {saved(slow)} %" in guide
+    for text in (guide, page):
+        assert f"annuli, whose wake carries no force, say {saved(twists)} %" in text
+        assert f"a lifting line near hover {saved(slow)} %" in text
 
 
 def test_it_fades_with_the_share_of_hover():
