@@ -25,7 +25,8 @@ from rotor.design.quantity import Slider
 from rotor.design.twist import REFERENCE_RADIUS, TwistLaw
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis, analysed, power_gradient
-from rotor.trim.doubt import doubt
+from rotor.trim.blade_distance import twist_difference
+from rotor.trim.doubt import HOVER_BLADE, DoubtRow, doubt
 from rotor.trim.many import analyse_many
 from rotor.trim.newton import SolverOptions
 
@@ -44,6 +45,8 @@ _HELD = 30.0
 """Weight of the design that is shared."""
 _MARGIN = 1.5
 """What is stated over the largest error measured: elsewhere it may be larger."""
+_LEAST_DIRECTION = 1e-3
+"""Least size of a direction of twist beside the largest that a band has."""
 _DRAWN = 32
 """Trims at random twists at which the error is measured, beside those at the corners."""
 
@@ -169,25 +172,48 @@ class Fitted:
     @cached_property
     def doubts(self) -> tuple[Array, Array]:
         """How each uncertain input changes power and the change from the design that is shared [W]: coefficients,
-        (terms, inputs) each."""
+        (terms, inputs) each; of the distance of the blades in hover, some in place of one."""
         shared = analysed(self.solution)
         n = math.ceil(_DOUBTS_PER_TERM * len(_exponents(self.x.shape[1], 2)))
         rows = [
             {row.name: row for row in doubt(trim, shared).rows}
             for trim in (*self.trims[:n], shared)
         ]
-        names = list(dict.fromkeys(name for each in rows for name in each))
+        names = [name for name in dict.fromkeys(itertools.chain(*rows)) if name != HOVER_BLADE]
         power, change = (
             np.array(
                 [[getattr(row.get(name), kind, None) or 0.0 for name in names] for row in rows]
             )
             for kind in ("power", "change")
         )
+        blades = [
+            _along_twist(trim.solution.design, shared.solution.design, row.get(HOVER_BLADE))
+            for trim, row in zip((*self.trims[:n], shared), rows, strict=True)
+        ]
+        change = np.hstack((change, _main_parts(np.array(blades))))
         terms = _terms(np.vstack((self.x[:n], self.family.here)), _exponents(self.x.shape[1], 2))
         of_power, of_change = (_solved(terms, values) for values in (power, change))
         # No change where nothing is changed.
         of_change[0] -= self.at(of_change, self.family.here[None])[0]
         return of_power, of_change
+
+
+def _along_twist(design: Design, shared: Design, row: DoubtRow | None) -> Array:
+    """The change by the distance of two blades [W], in parts along the span, (radii,).
+
+    Its size has a kink at the twist that is shared, which no polynomial follows. Its parts grow evenly with the twist,
+    and their root sum of squares is that size.
+    """
+    twist = twist_difference(design, shared)
+    if row is None or not row.change:
+        return np.zeros_like(twist)
+    return row.change * twist / float(np.linalg.norm(twist))
+
+
+def _main_parts(rows: Array) -> Array:
+    """The rows turned to their main directions, (trims, directions): lengths stay, and directions without any go."""
+    _, sizes, directions = np.linalg.svd(rows, full_matrices=False)
+    return np.asarray(rows @ directions[sizes > _LEAST_DIRECTION * sizes[0]].T)
 
 
 def fitted(solution: Solution) -> Fitted:

@@ -190,16 +190,16 @@ def _dial(now: PageState, design: Design, answer: DialMatrix | str | None) -> Di
 
 
 def validation_words() -> str:
-    """What the dial rests on."""
-    measured = [
-        one.vibration_percent
-        for one in programmes()
-        if one.kind != "computed" and one.vibration_percent
-    ]
-    least, most = -max(high for _, high in measured), -min(low for low, _ in measured)
+    """What the dial rests on, for example `no measured power saving by active twist`, and what was measured instead."""
+    tested = [one for one in programmes() if one.kind != "computed"]
+    vibration = [one.vibration_percent for one in tested if one.vibration_percent]
+    least = -max(high for _, high in vibration)
+    most = -min(low for low, _ in vibration)
+    powers = [-one.power_percent for one in tested if one.power_percent]
     return (
-        "Not validated: we found no measured power saving by active twist; published savings are computed. In wind "
-        f"tunnels, n/rev pitch or twist reduced vibration by {number(least)} to {number(most)} %."
+        "Not validated: we found no measured power saving by active twist; published savings by it are computed. "
+        f"In wind tunnels, n/rev root pitch saved {number(min(powers))} to {number(max(powers))} % of power, and "
+        f"n/rev pitch or twist reduced vibration by {number(least)} to {number(most)} %."
     )
 
 

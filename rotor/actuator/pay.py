@@ -11,6 +11,7 @@ a softer blade, saves more or less than its tip twist would along the whole blad
 """
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,7 +29,6 @@ from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
 from rotor.support.chart import Axis, Chart, Line
 from rotor.support.units import GRAVITY
-from rotor.trim.analysis import Analysis
 from rotor.trim.doubt import Doubt, banded
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
@@ -273,37 +273,59 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
             f"{installed.actuator.name} adds no mass, so no break-even mass applies: choose another actuator"
         )
     powers = {0.0: verdict.resting.power, 1.0: verdict.optimum.power}
-    parts, start, flown = verdict.parts_doubt, [verdict.resting.values], verdict.optimum.solutions
+    flown = verdict.optimum.solutions
     if not flown:  # The trims were left behind.
         flown = best_actuated(
             base.pair, base.concept, installed, starts=[verdict.optimum.values]
         ).solutions
-    near, own = flown, [Analysis(trim) for trim in flown]
-    # The doubts whose sum is that of the power with each stroke.
-    doubts: dict[float, tuple[Doubt | None, ...]] = {
-        0.0: (parts["blade"], parts["stiffness"]),
-        1.0: (),
-    }
+    reference = _trims(base, flown, fixed=verdict.against == "best-fixed")
+    resting = _resting_trims(verdict, flown)
+    doubts = {0.0: difference_doubt(base.pair.shares, resting, reference)}
+    start = [verdict.resting.values]
+    near = flown
     for stroke in OTHER_STROKES:
         found = best_actuated(
             base.pair, base.concept, installed, scale=stroke, starts=start, near=near
         )
-        powers[stroke], near = found.power, found.solutions
-        doubts[stroke] = (difference_doubt(base.pair.shares, near, own),)
+        powers[stroke] = found.power
+        near = found.solutions
+        doubts[stroke] = difference_doubt(base.pair.shares, near, reference)
     strokes = sorted(powers)
     least = [min(strokes[: k + 1], key=lambda stroke: powers[stroke]) for k in range(len(strokes))]
     saved = np.array(
         [verdict.reference_power - verdict.drive.hold_power - powers[stroke] for stroke in least]
     )
     twists, per_kg = np.array(strokes) * installed.attainable, verdict.mass_cost / mass
-    carried = _changes(parts["mass"])
-    net = _changes(verdict.doubt) - carried
-    changes = {
-        stroke: sum(map(_changes, each), net * (stroke > 0.0)) for stroke, each in doubts.items()
-    }
+    carried = _changes(verdict.parts_doubt["mass"])
+    changes = {stroke: _changes(doubt) for stroke, doubt in doubts.items()}
+    changes[1.0] = _changes(verdict.doubt) - carried
     return OtherStroke(
         twists, saved, per_kg, np.array([changes[stroke] for stroke in least]).T, carried / mass
     )
+
+
+def _resting_trims(verdict: Verdict, near: Sequence[Solution]) -> Sequence[Solution]:
+    """Trims of the blade of a verdict with its actuator at rest, without its mass; `near`: trims to start from."""
+    base = verdict.baseline
+    installed = verdict.installed
+    if verdict.resting.solutions:
+        return verdict.resting.solutions
+    if base.pair.design.elastic:
+        values = [verdict.resting.values]
+        resting = best_actuated(
+            base.pair, base.concept, installed, scale=0.0, starts=values, near=near
+        )
+        return resting.solutions
+    # The actuator changes a rigid blade by its drive alone.
+    return _trims(base, near, fixed=installed.host.kind != "retrofit")
+
+
+def _trims(base: Baseline, near: Sequence[Solution], *, fixed: bool) -> Sequence[Solution]:
+    """Trims of the blade without an actuator: the best fixed one, or as built; `near`: trims to start from."""
+    designs = base.pair.designs()
+    if fixed:
+        designs = [base.concept.apply(design, base.fixed.values) for design in designs]
+    return [solve(design, start).require() for design, start in zip(designs, near, strict=True)]
 
 
 def _changes(doubt: Doubt | None) -> Array:

@@ -5,7 +5,9 @@ An input is as wrong for one design as for another, so the change of a *differen
 Inputs are wrong independently of one another, so their changes are summed as squares.
 
 The model's own errors are shares of induced and profile power, fitted to measured powers (`rotor.validation.doubt`).
-They say little about how induced power differs between two designs. For that inflow models are compared.
+They say little about how induced power differs between two designs. For that inflow models are compared. In hover,
+where measured powers of pairs of rotors are known, a share of power is added that grows with the distance of the blades
+(`rotor.trim.blade_distance`): it is not a share of the change, so that the sign of a small change can be unclear.
 """
 
 import math
@@ -24,6 +26,7 @@ from rotor.support.markup import tag
 from rotor.support.table import LEFT, CellValue, Column, Table, table
 from rotor.support.units import power_unit
 from rotor.trim.analysis import Analysis, analysed
+from rotor.trim.blade_distance import blade_distance
 from rotor.trim.forward import SLOWEST
 from rotor.trim.low_speed import hover_share
 from rotor.trim.newton import FEW_DIGITS, Guess
@@ -37,6 +40,9 @@ LEAST_REPORTED = 0.01
 """[%] of power: a change and a band that are both smaller are none, and no band is said to be smaller."""
 COMPARED_INFLOWS = ("lifting-line", "pitt-peters")
 """Inflow models whose disagreement about a difference is taken as its error."""
+
+HOVER_BLADE = "hover_blade_percent"
+"""Uncertain input of a difference between two blades in hover: a share of power, not of the change."""
 
 
 @dataclass(frozen=True)
@@ -308,7 +314,7 @@ def mean_doubt(
             name: changes.get(name, none) - others.get(name, none) for name in {**changes, **others}
         }
         for share, one, other in zip(shares, here, there, strict=True):
-            for name, change in _inflow_differences(one.solution, other.solution).items():
+            for name, change in _model_differences(one.solution, other.solution).items():
                 differences[name] = differences.get(name, none) + share * change
     rows = list[DoubtRow]()
     for row in uncertain_inputs(first):
@@ -356,25 +362,46 @@ def mean_changes(shares: Sequence[float], trims: Sequence[Analysis]) -> dict[str
     return mean
 
 
-def _inflow_differences(here: Solution, there: Solution) -> dict[str, Array]:
-    """What the inflow model does to the difference of two powers by `PARTS` [W], by uncertain input.
+def _model_differences(here: Solution, there: Solution) -> dict[str, Array]:
+    """What the errors of the models do to the difference of two powers by `PARTS` [W], by uncertain input.
 
     Errors that two inflow models share cancel in a difference of designs; those that they do not share stay. In hover,
-    and where the other model has no trim, it is a part of the change of induced power.
+    and where the other model has no trim, they are a part of the change of induced power. Hover has another one beside
+    it, `blade_differences`. Both fade with hover's share of slow flight.
     """
     designs = here.design, there.design
     size = {row.name: 0.01 * row.size for row in uncertain_inputs(here.design)}
-    hovering = any(design.hovering for design in designs)
-    first, second = (
-        None if hovering else _powers_with_other_inflow(each) for each in (here, there)
-    )
     change = by_part(here.power) - by_part(there.power)
     induced = size["hover_wake_percent"] * change * (1.0, 0.0, 0.0, 0.0)
-    if first is None or second is None:
-        return {"hover_wake_percent": induced}
-    found = {"inflow_model_percent": size["inflow_model_percent"] * (change - (first - second))}
+    if any(design.hovering for design in designs):
+        return {"hover_wake_percent": induced} | blade_differences(here, there)
     share = max(map(hover_share, designs))
-    return {**found, "hover_wake_percent": share * induced} if share else found
+    first = _powers_with_other_inflow(here)
+    second = _powers_with_other_inflow(there)
+    found = dict[str, Array]()
+    if first is None or second is None:
+        found["hover_wake_percent"] = induced
+    else:
+        found["inflow_model_percent"] = size["inflow_model_percent"] * (change - (first - second))
+        if share:
+            found["hover_wake_percent"] = share * induced
+    if share:
+        blades = blade_differences(here, there)
+        found |= {name: share * change for name, change in blades.items()}
+    return found
+
+
+def blade_differences(here: Solution, there: Solution) -> dict[str, Array]:
+    """What the model's error does in hover to the difference of the powers of two blades by `PARTS` [W].
+
+    It is a share of the mean power of the main rotor times the distance of the blades; empty for equal blades.
+    """
+    distance = blade_distance(here.design, there.design)
+    if not distance:
+        return {}
+    (size,) = (0.01 * row.size for row in uncertain_inputs(here.design) if row.name == HOVER_BLADE)
+    mean = 0.5 * (by_part(here.power) + by_part(there.power))
+    return {HOVER_BLADE: size * distance * mean * (1.0, 1.0, 0.0, 0.0)}
 
 
 def with_other_inflow(design: Design) -> Design:

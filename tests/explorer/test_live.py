@@ -77,6 +77,15 @@ class TestPolynomials:
         assert change == pytest.approx(exact.change_band, rel=0.05)
         assert np.abs(made.at(made.doubts[1], made.family.here[None])).max() < 1e-6
 
+    def test_the_band_in_hover_has_its_kink_at_the_design_itself(self):
+        """By how far the blades differ: as large as a trim says far away, and half as large half way there."""
+        made = fitted(solve(make_design(hover=True, twist="linear:-10", elements=16, azimuths=36)))
+        for x in (-0.9, -0.4, -0.1, 0.1, 0.4, 0.9):
+            at = made.family.here + np.array([x]) * (1.0 - np.abs(made.family.here))
+            exact = doubt(solve(made.family.design(at)), made.solution)
+            band = float(np.hypot.reduce(made.at(made.doubts[1], at[None])[0]))
+            assert band == pytest.approx(exact.change_band, rel=0.05), x
+
     def test_no_trim_within_the_sliders_needs_less_than_the_best(self, made: Fitted):
         values, best = made.best
         assert (

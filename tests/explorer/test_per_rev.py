@@ -247,6 +247,10 @@ def test_published_programmes_are_told_with_their_sources():
         True
     ] * 3
     assert "reduced vibration by 50 to 95 %" in validation_words()
+    assert "root pitch saved 3 to 5 % of power" in validation_words()
+    measured = [one for one in programmes() if one.power_percent and one.kind != "computed"]
+    assert {one.short for one in measured} == {"META", "SKAT"}
+    assert {one.control for one in measured} == {"root pitch"}
 
 
 def test_only_where_wakes_agree_in_sign_is_anything_best():

@@ -17,6 +17,7 @@ from rotor.validation import Comparison, compare, design_at, load_set
 from rotor.validation.compare import FIELDS, SETS, ComparedPoint, measured_set
 from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed
 from rotor.validation.page import SETS as TRUST_SETS
+from tests.power_laws import change_of, power_law
 from tests.shipped_rows import still_true
 
 
@@ -90,15 +91,6 @@ def test_forward_flight_of_the_xv15_by_uniform_inflow(name: str):
         assert 0.00001 < full - simple < 0.0006
 
 
-def power_law(name: str, least: float, ct: float) -> tuple[float, float, float]:
-    """ln of torque above its zero at one C_T by a power law through a table, its variance, and the points' scatter."""
-    points = [point for point in load_set(name).points if point["ct"] >= least]
-    x, y = (np.log([point[column] for point in points]) for column in ("ct", "cq_above_zero"))
-    law, covariance = np.polyfit(x - math.log(ct), y, 1, cov=True)
-    left = y - np.polyval(law, x - math.log(ct))
-    return float(law[1]), float(covariance[1, 1]), math.sqrt(left @ left / (len(points) - 2))
-
-
 def test_the_measured_effect_of_twist_has_the_sign_of_the_table_it_is_counted_from():
     """The shipped changes are those of the tables; from table V, with measured C_T, twist costs power."""
     effect = load_set("castles-gray-twist-effect")
@@ -110,11 +102,9 @@ def test_the_measured_effect_of_twist_has_the_sign_of_the_table_it_is_counted_fr
         *tables,
         ("castles-gray-hover", 0.0018, 0.004, 9.8, 3.6),
     ):
-        twisted, other = power_law("castles-gray-twisted", 0.0, ct), power_law(plain, least, ct)
-        ratio = 100.0 * math.exp(twisted[0] - other[0])
-        assert_allclose(
-            (ratio - 100.0, ratio * math.sqrt(twisted[1] + other[1])), (change, scatter), atol=0.05
-        )
+        twisted = power_law("castles-gray-twisted", 0.0, ct)
+        measured = change_of(twisted, power_law(plain, least, ct))
+        assert_allclose(100.0 * np.array(measured), (change, scatter), atol=0.05)
     assert "would cost 9.8 ± 3.6 % at 0.004" in effect.note
     for point in compare(effect, "annulus").points:
         computed = (point.computed or {})["change_percent"]
@@ -131,7 +121,7 @@ def test_torque_of_castles_and_gray_where_thrust_was_measured(name: str):
     The least thrust at Mach 0.45 takes torque: counted from the zero at Mach 0.34 it gave some.
     """
     measured = load_set(f"castles-gray-{name}")
-    assert 100.0 * power_law(measured.name, 0.002, 0.004)[2] == pytest.approx(
+    assert 100.0 * power_law(measured.name, 0.002, 0.004).scatter == pytest.approx(
         measured.scatter_percent, abs=0.05
     )
     points = compare(measured, "annulus").points
