@@ -122,6 +122,11 @@ _SWITCHES = (
         "Beyond its stall angle a section loses lift and gains drag.",
         "The flow separates no further than where stall begins, and no vortex leaves.",
     ),
+    _switch("stall_delay",
+        "Rotation keeps the flow on the blade near the hub, where the chord is a large part of the radius: lift goes "
+        "towards that of attached flow (Snel, Houwink and Bosschers).",
+        "A blade element stalls as its section does in two dimensions.",
+    ),
 )  # fmt: skip
 
 _CONDITION = (

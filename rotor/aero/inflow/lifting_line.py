@@ -76,7 +76,8 @@ def circulation_gain(u_t: Array) -> tuple[Array, Array]:
 def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
     """The section with its circulation; as `section.section`, with the rows of `LINE_PAIRS`."""
     f, d, s = section(c, data, slopes, flow)
-    still = data._replace(tables=data.held, yawed=False, added=NO_INCREMENTS, **NO_MOMENT)
+    tables = {"tables": data.held, "missing": data.held_missing}
+    still = data._replace(**tables, yawed=False, added=NO_INCREMENTS, **NO_MOMENT)
     held, by_held, _ = section(c, still, slopes, False)
     gain, by_speed = circulation_gain(c[UT])
     f = np.concatenate([f, (gain * held[FZ])[None]])
