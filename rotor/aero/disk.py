@@ -158,7 +158,7 @@ def build_disk(
         {"swept": swept, "surface": surface, "stalls": stalls},
     )
     shown["fine_tip"] = fine_tip
-    shown["delays"] = delays and stalls
+    shown["delays"] = delays
     return replace(
         _disk(
             rest,

@@ -254,6 +254,9 @@ def delay_separation(gain: float, slopes: bool, fm: Any) -> None:
     its arm m is that of the section times K over the new K.
     """
     for k in range(fm.shape[1] - 1):
+        # Attached: both stay, and f, which is largest there, has no slope.
+        if fm[0, k] == 1.0:
+            continue
         own, by_f, _, _ = _kirchhoff(fm[0, k])
         kept = own + gain * (1.0 - own)
         root = 2.0 * math.sqrt(kept) - 1.0

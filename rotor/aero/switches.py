@@ -49,8 +49,6 @@ def no_effect(design: Design, name: str) -> str:
             return "hover is the same at every azimuth"
         case "dynamic_stall" if not inflow.pointwise:
             return "this inflow balances each point by itself, without lags"
-        case "stall_delay" if not design.models.stall:
-            return "sections do not stall"
         case "fuselage" if design.flight_speed == 0.0:
             return "no drag in hover"
         case "tip_loss" if not hovering and inflow.keeps_tips:

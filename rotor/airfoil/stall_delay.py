@@ -76,9 +76,12 @@ def delayed_lift(table: SectionTable, gain: float, alpha: ArrayLike, mach: Array
 
 
 def delayed_stall(table: SectionTable, gain: Array) -> Array:
-    """Stall angles of the lift curves with each g [rad], negative and positive end, (gains, 2, Mach nodes)."""
+    """Stall angles of the lift curves with each g [rad], negative and positive end, (gains, 2, Mach nodes).
+
+    A section that never stalls keeps its ±π.
+    """
     mach = mach_nodes()
-    if not table.lifts or not gain.any():
+    if not gain.any() or (table.alpha_stall_positive == np.pi).all():
         return np.broadcast_to(table.stall_alpha(mach), (len(gain), 2, len(mach))).copy()
     full = fully_delayed(table)
     zero = table.zero_lift_alpha(mach)
