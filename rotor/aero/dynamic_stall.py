@@ -14,9 +14,10 @@ semi-chords b.
     C_c − static = C_nα x² [√f″ − √f]                                       along the chord, forward
     C_m − static = C_nα x [K(f″) m″ − K(f) m] − 0.2 (1 − cos πτ) C_nᵛ
 
-so that at rest nothing is added. f(x), m(x): `rotor.airfoil.stall_onset`. Every stage is a linear lag whose
-coefficients the stages before it give: its periodic solution is exact after one turn. So are its derivatives: linear
-lags of the same decay, which `rotor.engine.memory` follows for any small changes of x and M.
+so that at rest nothing is added. f(x), m(x): `rotor.airfoil.stall_onset`; where rotation delays stall, those of a
+larger K (`delay_separation`). Every stage is a linear lag whose coefficients the stages before it give: its periodic
+solution is exact after one turn. So are its derivatives: linear lags of the same decay, which `rotor.engine.memory`
+follows for any small changes of x and M.
 
 Choices of ours: g rises over ±4 % of x_f, where Leishman and Beddoes switch; T_f and T_v stay the same in all phases;
 one vortex leaves in each stall; what apparent mass adds to the pressure at the leading edge is left out. Beyond 25° x

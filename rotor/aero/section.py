@@ -10,11 +10,11 @@ special case),
               F_r = ½σ V C_d(α') U_R
     dC_M/dr = M   = ½σ (c/R) U² C_m(α) − x F_z − d U θ' − ½ j sin 2θ
 
-F: loss factor on lift. Λ: sweep of the quarter chord. Drag is along the whole velocity V, with the coefficient of the
-section along the stream, at α' (after Harris, J. AHS 11(3), 1966, which could not be obtained; closed forms of Johnson,
-Helicopter Theory, 1980, follow for constant C_d); with U_R left out it is that of the section's plane. α' is beyond 90°
-where the stream meets the trailing edge first; where the stream is within 15° of the blade's axis, C_d goes smoothly
-from that of one edge to that of the other.
+F: loss factor on lift. Λ: sweep of the quarter chord. C_l has what `rotor.airfoil.stall_delay` adds near the hub. Drag
+is along the whole velocity V, with the coefficient of the section along the stream, at α' (after Harris, J. AHS 11(3),
+1966, which could not be obtained; closed forms of Johnson, Helicopter Theory, 1980, follow for constant C_d); with U_R
+left out it is that of the section's plane. α' is beyond 90° where the stream meets the trailing edge first; where the
+stream is within 15° of the blade's axis, C_d goes smoothly from that of one edge to that of the other.
 
 M is nose up about the pitch axis: x is how far the quarter chord lies behind it, d = N_b (c/R)³/8 the damping −πρb³Uθ̇
 of thin-airfoil theory (Theodorsen, NACA Report 496), j the propeller moment.
