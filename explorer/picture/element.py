@@ -15,13 +15,14 @@ from explorer.model.units import number
 from explorer.parts.stage import RidePart
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.picture.camera_views import RIDE_EYE, RIDE_LOOK, RIDE_VIEW
-from explorer.picture.polar import DRAG_DIVERGENCE, stall_angles
+from explorer.picture.polar import DRAG_DIVERGENCE, chord_of, stall_angles
 from explorer.text.status import section_title
 from rotor import Solution
 from rotor.aero.display import STALLED
 from rotor.aero.elements import Unsteady
 from rotor.aero.problem import LOW_MACH
 from rotor.airfoil.sections import Section
+from rotor.airfoil.stall_delay import delay_gain, delayed_lift
 from rotor.airfoil.stall_onset import unstalled
 from rotor.support.arrays import Array
 from rotor.support.chart import Axis, Chart, Line, drawn_chart
@@ -44,12 +45,15 @@ class SectionBlend:
 
     parts: tuple[tuple[Section, float], ...]
     """The sections that take part, with their shares."""
+    delay: float = 0.0
+    """g of `rotor.airfoil.stall_delay`; 0 where rotation does not delay stall."""
 
     def lift_curve(self, alpha: Array, mach: float) -> Array:
         """C_l at angles of attack [rad] about the blade's reference line."""
         curve = np.zeros_like(alpha)
         for section, share in self.parts:
-            curve += share * section.table(alpha - section.incidence_offset, mach).cl
+            own = alpha - section.incidence_offset
+            curve += share * delayed_lift(section.table, self.delay, own, mach)
         return curve
 
 
@@ -170,12 +174,15 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     parts = rotor.blade.mixture(r, design.reynolds_per_metre)
     if not design.models.stall:
         parts = tuple((replace(one, table=unstalled(one.table)), share) for one, share in parts)
-    section = SectionBlend(parts)
+    chord = chord_of(rotor, parts, r)
+    delay = 0.0
+    if design.models.has("stall_delay"):
+        delay = float(delay_gain(chord / (r * rotor.radius)))
+    section = SectionBlend(parts, delay)
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
     ahead = at.held(disk.pitch_of_alpha - disk.theta)
     alpha = math.pi - (math.pi - theta - ahead + phi) % (2.0 * math.pi)
-    chord = float(rotor.blade.chord(r)) * sum(share * s.chord_ratio for s, share in section.parts)
     lower, upper = stall_angles(solution)
     unsteady = disk.unsteady
     idle = u_t < 0.0 and not design.models.reverse_flow

@@ -19,7 +19,8 @@ from rotor.aero.display import STALLED
 from rotor.aero.problem import LOW_MACH
 from rotor.aero.section import arctangent
 from rotor.airfoil.sections import Section
-from rotor.design.blade import Blade
+from rotor.airfoil.stall_delay import delay_gain, delayed_stall
+from rotor.design.blade import Rotor
 from rotor.support.arrays import Array, Booleans
 from rotor.support.compiled import compiled
 from rotor.trim import DiskFields
@@ -191,28 +192,56 @@ def stall_angles(solution: Solution) -> tuple[Array, Array]:
     if not design.models.stall:
         return lower - math.pi, upper + math.pi
     mach = disk.mach if design.models.compressibility else np.full_like(disk.mach, LOW_MACH)
-    for section, rows, shares in _sections(
-        design.rotor.blade, tuple(disk.r.tolist()), design.reynolds_per_metre
-    ):
-        negative, positive = section.table.stall_alpha(mach[rows])
+    sections = _sections(
+        design.rotor,
+        tuple(disk.r.tolist()),
+        design.reynolds_per_metre,
+        delays=design.models.has("stall_delay"),
+    )
+    for section, rows, shares, knots in sections:
+        negative, positive = _between_machs(knots, mach[rows])
         lower[rows] += shares * (negative + section.incidence_offset)
         upper[rows] += shares * (positive + section.incidence_offset)
     return lower, upper
 
 
+def _between_machs(knots: Array, mach: Array) -> Array:
+    """Stall angles at Mach numbers (elements, azimuths), linear between the knots, (2, elements, azimuths)."""
+    last = knots.shape[2] - 1
+    place = np.minimum(mach * last, last - 1e-9)
+    cell = place.astype(np.int64)
+    below = np.take_along_axis(knots, cell[:, None], axis=2)
+    above = np.take_along_axis(knots, cell[:, None] + 1, axis=2)
+    angles = below + (place - cell)[:, None] * (above - below)
+    return angles.swapaxes(0, 1)
+
+
 @lru_cache(maxsize=8)
 def _sections(
-    blade: Blade, r: tuple[float, ...], per_metre: float
-) -> tuple[tuple[Section, Places, Array], ...]:
-    """Each section with the elements at r = y/R that have it, and its share of each, (elements, 1)."""
+    rotor: Rotor, r: tuple[float, ...], per_metre: float, *, delays: bool
+) -> tuple[tuple[Section, Places, Array, Array], ...]:
+    """Each section with the elements at r = y/R that have it, its share of each, (elements, 1), and its stall angles at
+    the Mach numbers of its table, (elements, 2, Mach numbers); delays: whether rotation delays stall."""
     found: dict[Section, list[tuple[int, float]]] = {}
+    gain: Array = np.zeros(len(r))
     for i, at in enumerate(r):
-        for section, share in blade.mixture(at, per_metre):
+        parts = rotor.blade.mixture(at, per_metre)
+        for section, share in parts:
             found.setdefault(section, []).append((i, share))
-    return tuple(
-        (section, np.array([i for i, _ in of], np.int32), np.array([[share] for _, share in of]))
-        for section, of in found.items()
-    )
+        if delays:
+            gain[i] = delay_gain(chord_of(rotor, parts, at) / (at * rotor.radius))
+    sections: list[tuple[Section, Places, Array, Array]] = []
+    for section, of in found.items():
+        rows = np.array([i for i, _ in of], np.int32)
+        shares = np.array([[share] for _, share in of])
+        sections.append((section, rows, shares, delayed_stall(section.table, gain[rows])))
+    return tuple(sections)
+
+
+def chord_of(rotor: Rotor, parts: Sequence[tuple[Section, float]], r: float) -> float:
+    """The chord [m] at r = y/R of a blade whose sections there have these shares."""
+    ratio = sum(share * section.chord_ratio for section, share in parts)
+    return float(rotor.blade.chord(r)) * ratio
 
 
 @_compile

@@ -7,17 +7,30 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rotor.airfoil.section_table import (
-    MACH_STEP,
-    N_MACH,
     SectionTable,
     attached_lift,
     held_beyond_peak,
+    mach_nodes,
 )
 from rotor.airfoil.sections import Section
-from rotor.airfoil.stall_onset import ZERO, stall_onset, unstalled
+from rotor.airfoil.stall_delay import delay_gain, delayed_stall, fully_delayed
+from rotor.airfoil.stall_onset import (
+    NEGATIVE,
+    POSITIVE,
+    SLOPE,
+    ZERO,
+    normal_force,
+    onset_angles,
+    stall_onset,
+    unstalled,
+)
 from rotor.design.blade import Blade, Rotor
-from rotor.support.arrays import Array, read_only
+from rotor.support.arrays import Array, fix, read_only
 from rotor.support.bytes_cache import bytes_cache
+
+NO_DELAY = np.zeros(0)
+_NO_TABLES = np.zeros((0,) * 6)
+fix((NO_DELAY, _NO_TABLES))
 
 
 class OnDisk:
@@ -66,12 +79,19 @@ class Disk(OnDisk):
     """Section coefficients, (sections, α cells, Mach cells, 2, 4, 4)."""
     held: Array
     """Tables of a lifting line's circulation, `section_table.held_beyond_peak`."""
+    delay: Array
+    """g of `stall_delay`, (elements,); without elements where rotation does not delay stall. 0 where a section has no
+    lift."""
+    missing: Array
+    """C_l* − C_l of `stall_delay`, (sections, α cells, Mach cells, 1, 4, 4); without sections as `delay`."""
+    held_missing: Array
+    """The same of `held`: what C_l* held beyond its peak has more than C_l held beyond its own."""
     cos_sweep: Array
     """Cosine and sine of the sweep of the quarter chord, (elements,): of the Mach number normal to it."""
     sin_sweep: Array
     stall: Array
-    """Stall angles about the section's own chord [rad] at the table's Mach nodes, (sections, 2, nodes): negative end,
-    positive end."""
+    """Stall angles about the chord of each of the two sections of an element [rad] at the table's Mach nodes,
+    (elements, 2, 2, nodes): negative end, positive end. Of the element's own lift curve, delayed where it is."""
     mach_limit: float
     """Mach number where the section data end."""
     fit_range: tuple[float, float] | None
@@ -118,13 +138,15 @@ def build_disk(
     swept: bool = True,
     surface: bool = True,
     stalls: bool = True,
+    delays: bool = True,
     fine_tip: bool = False,
     reynolds: float = 0.0,
 ) -> Disk:
     """The rotor on a grid of elements, evenly spaced or finer towards the tip, and evenly spaced azimuths.
 
     `only_mach`: section data are those of that Mach number everywhere; None: of the local Mach number.
-    `swept`, `surface`, `stalls`: whether the sweep of the tip, the drag of the real surface and stall count.
+    `swept`, `surface`, `stalls`, `delays`: whether the sweep of the tip, the drag of the real surface, stall, and its
+    delay by rotation count.
     `reynolds`: `Design.reynolds_per_metre` where a section has data of several Reynolds numbers; else 0, so that all
     altitudes share a disk and what is kept by it.
     """
@@ -136,6 +158,7 @@ def build_disk(
         {"swept": swept, "surface": surface, "stalls": stalls},
     )
     shown["fine_tip"] = fine_tip
+    shown["delays"] = delays
     return replace(
         _disk(
             rest,
@@ -159,6 +182,7 @@ def _disk(
     swept: bool,
     surface: bool,
     stalls: bool,
+    delays: bool,
     fine_tip: bool,
     reynolds: float,
 ) -> Disk:
@@ -191,7 +215,10 @@ def _disk(
         )
     tables = _at_mach(sections, only_mach)
     coefficients, held = _stacked(tables, blade.surface_drag if surface else 1.0)
-    mach = MACH_STEP * np.arange(N_MACH + 1)
+    delay, missing, held_missing = NO_DELAY, _NO_TABLES, _NO_TABLES
+    if delays:
+        delay = _delay(tables, section, blade.chord(r) * ratio / (r * rotor.radius))
+        missing, held_missing = _missing(tables)
     return Disk(
         r=r,
         dr=np.diff(edges),
@@ -207,9 +234,12 @@ def _disk(
         offset=offset,
         tables=coefficients,
         held=held,
+        delay=delay,
+        missing=missing,
+        held_missing=held_missing,
         cos_sweep=np.cos(sweep),
         sin_sweep=np.sin(sweep),
-        stall=np.stack([table.stall_alpha(mach) for table in tables]),
+        stall=_stall(tables, section, delay),
         mach_limit=min(table.mach_limit for table in tables),
         fit_range=next((table.fit_range for table in tables if table.fit_range is not None), None),
     )
@@ -251,6 +281,38 @@ def _stacked(tables: tuple[SectionTable, ...], drag: float) -> tuple[Array, Arra
     return coefficients, np.stack([held_beyond_peak(each) for each in coefficients])
 
 
+def _delay(tables: tuple[SectionTable, ...], section: NDArray[np.int64], ratio: Array) -> Array:
+    """`Disk.delay`; ratio: c/r of the elements."""
+    lifts = np.array([table.lifts for table in tables])
+    return np.where(lifts[section].any(axis=1), delay_gain(ratio), 0.0)
+
+
+@bytes_cache
+@read_only
+def _missing(tables: tuple[SectionTable, ...]) -> tuple[Array, Array]:
+    """`Disk.missing` and `Disk.held_missing`."""
+    missing: list[Array] = []
+    held_missing: list[Array] = []
+    for table in tables:
+        full = fully_delayed(table)
+        held = held_beyond_peak(full.coefficients) - held_beyond_peak(table.coefficients)
+        missing.append((full.coefficients - table.coefficients)[:, :, :1])
+        held_missing.append(held[:, :, :1])
+    return np.stack(missing), np.stack(held_missing)
+
+
+def _stall(tables: tuple[SectionTable, ...], section: NDArray[np.int64], delay: Array) -> Array:
+    """`Disk.stall`."""
+    mach = mach_nodes()
+    if not len(delay):
+        return np.stack([table.stall_alpha(mach) for table in tables])[section]
+    angles = np.empty((*section.shape, 2, len(mach)))
+    for k, table in enumerate(tables):
+        elements, which = np.nonzero(section == k)
+        angles[elements, which] = delayed_stall(table, delay[elements])
+    return angles
+
+
 @bytes_cache
 @read_only
 def without_stall(disk: Disk, only_mach: float | None = None) -> Array:
@@ -267,8 +329,21 @@ def build_onset(disk: Disk, only_mach: float | None = None) -> tuple[Array, Arra
 
     (elements, 8, Mach nodes) and (sections, α cells, Mach cells, 2, 4, 4); only_mach as for `build_disk`.
     """
-    onsets = [stall_onset(table) for table in _at_mach(disk.sections, only_mach)]
+    tables = _at_mach(disk.sections, only_mach)
+    onsets = [stall_onset(table) for table in tables]
     numbers = np.stack([each.numbers for each in onsets])[disk.section]  # (elements, 2, 8, nodes)
+    if len(disk.delay):
+        mach = mach_nodes()
+        for k, table in enumerate(tables):
+            elements, which = np.nonzero(disk.section == k)
+            gain = disk.delay[elements][:, None]
+            full = fully_delayed(table)
+            for row, end in ((NEGATIVE, 0), (POSITIVE, 1)):
+                angles = disk.stall[elements, which, end]
+                own, attached = (normal_force(each, angles, mach) for each in (table, full))
+                numbers[elements, which, row] = onset_angles(
+                    angles, own + gain * (attached - own), numbers[elements, which, SLOPE]
+                )
     numbers[:, :, ZERO] += disk.offset[:, :, None]
     share = disk.weight[:, None, None]
     return (1.0 - share) * numbers[:, 0] + share * numbers[:, 1], _onset_tables(

@@ -131,7 +131,7 @@ def areas(
         u_t, lift = matrix @ np.stack((elements.u_t, elements.fz))
         reverse, cells, r = u_t < 0.0, cells / len(disk.psi), matrix @ disk.r
         if unsteady is None:
-            limits = stall_angles(elements.mach, disk.section, disk.weight, disk.offset, disk.stall)
+            limits = stall_angles(elements.mach, disk.weight, disk.offset, disk.stall)
             pitch = elements.theta if elements.rates is None else pitch_of_alpha(elements)
             theta, u_p, low, high = matrix @ np.stack((pitch, elements.u_p, *limits))
             alpha = np.empty_like(theta)
@@ -164,9 +164,7 @@ def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, flo
 def own_stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
     """`stalled_parts` on the azimuths of the trim."""
     disk, e = problem.disk, elements
-    margin = stall_margins(
-        e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall
-    )
+    margin = stall_margins(e.alpha, e.mach, e.u_t, disk.weight, disk.offset, disk.stall)
     _, area, _, moment, _ = areas(disk, e, margin)
     return area, moment
 

@@ -14,9 +14,10 @@ semi-chords b.
     C_c − static = C_nα x² [√f″ − √f]                                       along the chord, forward
     C_m − static = C_nα x [K(f″) m″ − K(f) m] − 0.2 (1 − cos πτ) C_nᵛ
 
-so that at rest nothing is added. f(x), m(x): `rotor.airfoil.stall_onset`. Every stage is a linear lag whose
-coefficients the stages before it give: its periodic solution is exact after one turn. So are its derivatives: linear
-lags of the same decay, which `rotor.engine.memory` follows for any small changes of x and M.
+so that at rest nothing is added. f(x), m(x): `rotor.airfoil.stall_onset`; where rotation delays stall, those of a
+larger K (`delay_separation`). Every stage is a linear lag whose coefficients the stages before it give: its periodic
+solution is exact after one turn. So are its derivatives: linear lags of the same decay, which `rotor.engine.memory`
+follows for any small changes of x and M.
 
 Choices of ours: g rises over ±4 % of x_f, where Leishman and Beddoes switch; T_f and T_v stay the same in all phases;
 one vortex leaves in each stall; what apparent mass adds to the pressure at the leading edge is left out. Beyond 25° x
@@ -39,7 +40,7 @@ from rotor.airfoil.stall_onset import (
     TRAVEL,
 )
 from rotor.engine.memory import around, onto_coarser, onto_finer
-from rotor.support.arrays import Array, Integers
+from rotor.support.arrays import Array, Integers, fix
 from rotor.support.compiled import compiled
 
 INPUTS = (ANGLE, MACH_NUMBER) = tuple(range(2))
@@ -149,6 +150,10 @@ def lag(u: Any, weights: Any, z: Any) -> None:
     around(weights[_DECAY], z)
 
 
+_NO_DELAY = np.zeros(0)
+fix(_NO_DELAY)
+
+
 class StallData(NamedTuple):
     """What dynamic stall needs beside x and M."""
 
@@ -161,6 +166,8 @@ class StallData(NamedTuple):
     half_chord: Array
     """b/R, (elements,)."""
     tip_mach: float
+    delay: Array = _NO_DELAY
+    """g of `rotor.airfoil.stall_delay`, (elements,), or without elements."""
 
 
 @_compile
@@ -235,7 +242,34 @@ def _along(element: int, data: Any, cells: Any, places: Any, x: Any, slopes: boo
                 fm,
                 0,
             )
+    if len(data.delay) > 0:
+        delay_separation(data.delay[element], slopes, fm)
     fm[0, -1], fm[3, -1] = fm[0, 0], fm[3, 0]
+
+
+@_compile
+def delay_separation(gain: float, slopes: bool, fm: Any) -> None:
+    """Change f and m of one row, with their slopes where asked for, to those of an element whose stall is delayed.
+
+    The force of attached flow has K = 1: so K goes to K + g (1 − K), and f to that of the new K. The moment stays, so
+    its arm m is that of the section times K over the new K.
+    """
+    for k in range(fm.shape[1] - 1):
+        # Attached: both stay, and f, which is largest there, has no slope.
+        if fm[0, k] == 1.0:
+            continue
+        own, by_f, _, _ = _kirchhoff(fm[0, k])
+        kept = own + gain * (1.0 - own)
+        root = 2.0 * math.sqrt(kept) - 1.0
+        arm = fm[3, k]
+        fm[0, k] = root * root
+        fm[3, k] = arm * own / kept
+        if slopes:
+            of_f = 4.0 * root / (root + 1.0) * (1.0 - gain) * by_f
+            of_arm = arm * gain / (kept * kept) * by_f
+            for row in (1, 2):
+                fm[3 + row, k] = fm[3 + row, k] * own / kept + of_arm * fm[row, k]
+                fm[row, k] *= of_f
 
 
 @_compile

@@ -148,6 +148,9 @@ class Problem:
             offset=disk.offset,
             tables=disk.tables,
             held=disk.held,
+            delay=disk.delay,
+            missing=disk.missing,
+            held_missing=disk.held_missing,
             cos_sweep=disk.cos_sweep,
             sin_sweep=disk.sin_sweep,
             tip_mach=self.tip_mach,
@@ -174,6 +177,7 @@ def build_problem(design: Design) -> Problem:
     elements, azimuths = grid_of(design)
     shown = {"swept": swept, "surface": models.has("surface_drag"), "fine_tip": inflow.fine_tip}
     shown["stalls"] = models.stall
+    shown["delays"] = models.has("stall_delay")
     reynolds = design.reynolds_per_metre if rotor.blade.follows_reynolds else 0.0
     disk = build_disk(
         rotor, elements=elements, azimuths=azimuths, only_mach=only_mach, reynolds=reynolds, **shown
@@ -252,7 +256,13 @@ def _stall_data(design: Design, disk: Disk, inflow: InflowModel) -> StallData | 
         "tables": tables,
         "half_chord": 0.5 * (rotor.blade.chord(disk.r) / rotor.radius),
     }
-    return StallData(**own, section=disk.section, weight=disk.weight, tip_mach=design.tip_mach)
+    return StallData(
+        **own,
+        section=disk.section,
+        weight=disk.weight,
+        tip_mach=design.tip_mach,
+        delay=disk.delay,
+    )
 
 
 def grid_of(design: Design) -> tuple[int, int]:

@@ -10,11 +10,11 @@ special case),
               F_r = ½σ V C_d(α') U_R
     dC_M/dr = M   = ½σ (c/R) U² C_m(α) − x F_z − d U θ' − ½ j sin 2θ
 
-F: loss factor on lift. Λ: sweep of the quarter chord. Drag is along the whole velocity V, with the coefficient of the
-section along the stream, at α' (after Harris, J. AHS 11(3), 1966, which could not be obtained; closed forms of Johnson,
-Helicopter Theory, 1980, follow for constant C_d); with U_R left out it is that of the section's plane. α' is beyond 90°
-where the stream meets the trailing edge first; where the stream is within 15° of the blade's axis, C_d goes smoothly
-from that of one edge to that of the other.
+F: loss factor on lift. Λ: sweep of the quarter chord. C_l has what `rotor.airfoil.stall_delay` adds near the hub. Drag
+is along the whole velocity V, with the coefficient of the section along the stream, at α' (after Harris, J. AHS 11(3),
+1966, which could not be obtained; closed forms of Johnson, Helicopter Theory, 1980, follow for constant C_d); with U_R
+left out it is that of the section's plane. α' is beyond 90° where the stream meets the trailing edge first; where the
+stream is within 15° of the blade's axis, C_d goes smoothly from that of one edge to that of the other.
 
 M is nose up about the pitch axis: x is how far the quarter chord lies behind it, d = N_b (c/R)³/8 the damping −πρb³Uθ̇
 of thin-airfoil theory (Theodorsen, NACA Report 496), j the propeller moment.
@@ -48,7 +48,7 @@ _PI = math.pi
 
 
 class SectionData(NamedTuple):
-    """What forces need beside the channels; arrays by element unless said otherwise. The first eight: see `Disk`."""
+    """What forces need beside the channels; arrays by element unless said otherwise. The first eleven: see `Disk`."""
 
     half_solidity: Array
     section: Integers
@@ -56,6 +56,9 @@ class SectionData(NamedTuple):
     offset: Array
     tables: Array
     held: Array
+    delay: Array
+    missing: Array
+    held_missing: Array
     cos_sweep: Array
     sin_sweep: Array
     tip_mach: float
@@ -112,6 +115,8 @@ _LIFT_BY, _DRAG_BY = 16, 20
 """First rows of the derivatives of ½σU F C_l and ½σV C_d by θ, U_T, U_P and U_R."""
 _TURN = 9
 """Row of coefficients: ∂C_d/∂(C/G) of `_other_edge`, followed by two to work in."""
+_MISSING = 12
+"""Row of coefficients: C_l* − C_l of `rotor.airfoil.stall_delay`, followed by its slopes by α and M."""
 _FADES = 0.25
 """C/G below which C_d goes to that of the stream from the other edge; with half of it the UH-60A's power at µ 0.4 is
 0.01 % less."""
@@ -132,7 +137,7 @@ def section(c: Any, data: Any, slopes: bool, flow: bool) -> Any:
         len(data.scatter) > 0,
     )
     w, alpha, mach = np.empty((_DRAG_BY + 4, m)), np.empty(m), np.empty(m)
-    cells, places, coeffs = np.empty((2, m), np.int32), np.empty((3, m)), np.zeros((12, m))
+    cells, places, coeffs = np.empty((2, m), np.int32), np.empty((3, m)), np.zeros((15, m))
     for i in range(n):
         t, p, r = c[UT, i], c[UP, i], c[UR, i]
         angles_of_attack(c[TH, i], t, p, alpha)
@@ -297,6 +302,7 @@ def _coefficients(
     """Coefficients of one row from kinds[0] to before kinds[1], with C_m beside C_l, blended from the two sections at
     its element, each followed by ∂/∂α and ∂/∂M; cells (2, azimuths), places (3, azimuths): along Mach they are there.
     """
+    gain = data.delay[i] if kinds[0] == 0 and len(data.delay) > 0 else 0.0
     for which in range(2):
         share = data.weight[i] if which == 1 else 1.0
         if share > 0.0:
@@ -305,6 +311,12 @@ def _coefficients(
             look_up(data.tables, kinds, table, cells, places, share, slopes, coeffs, row)
             if kinds[0] == 0 and len(data.moment_gain) > 0:
                 look_up(data.moment_tables, (0, 1), table, cells, places, share, slopes, coeffs, 6)
+            if gain > 0.0:
+                look_up(data.missing, (0, 1), table, cells, places, share, slopes, coeffs, _MISSING)
+    if gain > 0.0:
+        for k in range(3 if slopes else 1):
+            for j in range(coeffs.shape[1]):
+                coeffs[k, j] += gain * coeffs[_MISSING + k, j]
 
 
 @_inline
@@ -506,21 +518,22 @@ def of_double_angle(angle: float) -> Any:
 
 
 @_compile
-def stall_angles(mach: Any, section: Any, weight: Any, offset: Any, stall: Any) -> Any:
+def stall_angles(mach: Any, weight: Any, offset: Any, stall: Any) -> Any:
     """Negative and positive stall angle about the blade's reference line [rad], (2, elements, azimuths).
 
-    stall: angles about the section's own chord at the Mach knots, (sections, 2, knots): negative end, positive end.
+    stall: angles about the chord of each of the two sections of an element at the Mach knots, (elements, 2, 2, knots):
+    negative end, positive end.
     """
     n, m = mach.shape
     out = np.zeros((2, n, m))
-    top = stall.shape[2] - 1 - 1e-9
+    top = stall.shape[3] - 1 - 1e-9
     cell, place, slope = np.empty(m, np.int32), np.empty(m), np.empty(m)
     for i in range(n):
         places_along_mach(mach[i], cell, place, slope)
         for which in range(2):
             share = weight[i] if which == 1 else 1.0 - weight[i]
             if share > 0.0:
-                row = stall[section[i, which]]
+                row = stall[i, which]
                 for j in range(m):
                     k, v = min(cell[j], int(top)), place[j]
                     out[0, i, j] += share * (
@@ -533,14 +546,12 @@ def stall_angles(mach: Any, section: Any, weight: Any, offset: Any, stall: Any) 
 
 
 @_compile
-def stall_margins(
-    alpha: Any, mach: Any, u_t: Any, section: Any, weight: Any, offset: Any, stall: Any
-) -> Any:
+def stall_margins(alpha: Any, mach: Any, u_t: Any, weight: Any, offset: Any, stall: Any) -> Any:
     """Angle of attack left before stall [rad], (elements, azimuths): negative when stalled, π/2 in reverse flow.
 
     stall: as in `stall_angles`.
     """
-    low, high = stall_angles(mach, section, weight, offset, stall)
+    low, high = stall_angles(mach, weight, offset, stall)
     out = np.empty(alpha.shape)
     for i in range(alpha.shape[0]):
         for j in range(alpha.shape[1]):

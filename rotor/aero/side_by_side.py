@@ -7,7 +7,9 @@ from numpy.typing import NDArray
 
 from rotor.support.arrays import fix
 
-_SHARED = frozenset({"tables", "held", "moment_tables", "added", "scatter"})
+_SHARED = frozenset(
+    {"tables", "held", "missing", "held_missing", "moment_tables", "added", "scatter"}
+)
 """Arrays that are not by element."""
 _ROWS = frozenset({"reference"})
 """Arrays by row, then by element."""

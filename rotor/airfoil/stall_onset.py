@@ -74,7 +74,7 @@ def stall_onset(table: SectionTable) -> StallOnset:
     angles = np.arange(-180.0, 180.1, 0.5)
     x = np.deg2rad(angles)[:, None]
     f, m = np.ones((len(x), len(mach))), np.zeros((len(x), len(mach)))
-    force, moment = _normal_force(table, zero + x, mach), table.moment(zero + x, mach)
+    force, moment = normal_force(table, zero + x, mach), table.moment(zero + x, mach)
     inside = (np.abs(x) <= WIDEST) & (np.abs(x) >= np.deg2rad(1.0)) & (mach >= 0.0)
     secant = np.divide(force, x, out=np.zeros_like(force), where=inside)
     negative, positive = table.stall_alpha(mach)
@@ -91,14 +91,19 @@ def stall_onset(table: SectionTable) -> StallOnset:
     numbers = np.empty((len(ONSET), N_MACH + 1))
     numbers[SLOPE], numbers[ZERO] = slope, zero
     for row, end in ((POSITIVE, positive), (NEGATIVE, negative)):
-        reached = np.abs(end) < np.pi
-        numbers[row] = np.where(
-            reached, _normal_force(table, end, mach) / slope, np.copysign(_NEVER, end)
-        )
+        numbers[row] = onset_angles(end, normal_force(table, end, mach), slope)
     for row, lags in _LAGS.items():
         numbers[row] = np.interp(mach, _LAG_MACH, lags)
     blocks = (bicubic_coefficients(C81Block(mach, angles, values)) for values in (f, m))
     return StallOnset(numbers, np.ascontiguousarray(np.stack(list(blocks), axis=2)))
+
+
+def onset_angles(end: Array, force: Array, slope: Array) -> Array:
+    """Angles from zero lift [rad] at which attached flow has the normal force of static stall, of one side.
+
+    end: stall angles, ±π of a section that does not stall; force: C_n there; slope: C_nα.
+    """
+    return np.where(np.abs(end) < np.pi, force / slope, np.copysign(_NEVER, end))
 
 
 @bytes_cache
@@ -123,7 +128,7 @@ def unstalled(table: SectionTable) -> SectionTable:
         return with_nodes(known, beyond, C81Block(mach, degrees, values))
 
     here, there = table(alpha, mach), table(end, mach)
-    normal = _normal_force(table, end, mach) * (alpha - zero) / (end - zero)
+    normal = normal_force(table, end, mach) * (alpha - zero) / (end - zero)
     lift = (normal - there.cd * np.sin(alpha)) / np.cos(alpha)
     pairs = enumerate(((here.cl, lift), (here.cd, there.cd)))
     forces = np.stack([cells(table.coefficients[:, :, k], *pair) for k, pair in pairs], axis=2)
@@ -151,7 +156,7 @@ def _ends(table: SectionTable) -> tuple[Array, Array]:
 
     def end(side: float) -> Array:
         low = (
-            side * _normal_force(table, zero + side * out, mach)
+            side * normal_force(table, zero + side * out, mach)
             < 0.25 * (1.0 + STALLED**0.5) ** 2 * slope * out
         )
         last = np.where(
@@ -162,7 +167,7 @@ def _ends(table: SectionTable) -> tuple[Array, Array]:
     return end(-1.0), end(1.0)
 
 
-def _normal_force(table: SectionTable, alpha: Array, mach: Array) -> Array:
+def normal_force(table: SectionTable, alpha: Array, mach: Array) -> Array:
     """C_n of the static data."""
     forces = table(alpha, mach)
     return forces.cl * np.cos(alpha) + forces.cd * np.sin(alpha)

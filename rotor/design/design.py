@@ -67,7 +67,8 @@ VERSION = 2
 
 
 BEYOND_DOCUMENT = (
-    "elastic_twist", "unsteady", "dynamic_stall", "surface_drag", "swept_tip", "radial_friction", "swirl", "download",
+    "elastic_twist", "unsteady", "dynamic_stall", "stall_delay", "surface_drag", "swept_tip", "radial_friction",
+    "swirl", "download",
 )  # fmt: skip
 """Switches of `Models` for effects that the document does not have."""
 
@@ -127,6 +128,9 @@ class Models:
     dynamic_stall: bool = True
     """Whether sections follow the angle of attack with the lags of separation, and shed vortices where they stall. Off:
     they stall as the steady data say."""
+    stall_delay: bool = True
+    """Whether rotation delays stall where the chord is a large part of the radius, see `rotor.airfoil.stall_delay`.
+    Off: an element stalls as its section does in two dimensions."""
     low_speed: quantities.LowSpeed = "wake"
     """`wake`: the inflow model of forward flight at any speed; `hover`: it passes over to the hover model as the speed
     falls to zero."""

@@ -106,6 +106,11 @@ _SWITCHES = (
         "Separation lags the angle of attack, and stall sheds a vortex (Leishman and Beddoes).",
         "Sections stall as in the steady data.",
     ),
+    _switch("stall_delay",
+        "Rotation keeps the flow on the blade near the hub, where the chord is a large part of the radius: lift goes "
+        "towards that of attached flow (Snel, Houwink and Bosschers).",
+        "A blade element stalls as its section does in two dimensions.",
+    ),
     _switch("swirl",
         "The rotor swirls the air; this takes power and lowers the speed at the blade.",
         "The air in the disk moves along the shaft only.",

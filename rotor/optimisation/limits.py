@@ -226,7 +226,7 @@ def _margin(problem: Problem, elements: BladeElements) -> tuple[Array, Array, Ar
     """Angle of attack left before stall [rad], and its slopes by α and Mach: `section.stall_margins` differentiated."""
     disk = problem.disk
     alpha, mach = elements.alpha, elements.mach
-    top = disk.stall.shape[2] - 1
+    top = disk.stall.shape[3] - 1
     x = np.minimum(mach / MACH_STEP, top - 1e-9)
     k = x.astype(np.int64)
     v = x - k
@@ -237,7 +237,7 @@ def _margin(problem: Problem, elements: BladeElements) -> tuple[Array, Array, Ar
         angle, slope = np.zeros_like(alpha), np.zeros_like(alpha)
         for which in (0, 1):
             share = (disk.weight if which else 1.0 - disk.weight)[:, None]
-            row = disk.stall[disk.section[:, which], end]
+            row = disk.stall[:, which, end]
             here, ahead = np.take_along_axis(row, k, axis=1), np.take_along_axis(row, k + 1, axis=1)
             angle += share * (here + v * (ahead - here) + disk.offset[:, which][:, None])
             slope += share * (ahead - here) * inside

@@ -196,9 +196,7 @@ def _fields(problem: Problem, elements: BladeElements) -> DiskFields:
             )
         },
         inflow=e.induced + e.flow.mu_z,
-        stall_margin=stall_margins(
-            e.alpha, e.mach, e.u_t, disk.section, disk.weight, disk.offset, disk.stall
-        ),
+        stall_margin=stall_margins(e.alpha, e.mach, e.u_t, disk.weight, disk.offset, disk.stall),
         dct=e.fz,
         dcq=e.fx,
         dcr=e.fr,

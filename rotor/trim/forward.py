@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 from itertools import chain
 
-from rotor.aero.disk import without_stall
+from rotor.aero.disk import NO_DELAY, without_stall
 from rotor.aero.display import stalled_parts
 from rotor.aero.elements import TrimState
 from rotor.aero.inflow import inflow_model
@@ -72,7 +72,7 @@ def _linear_trim(design: Design) -> tuple[WakeCourse, TrimState] | None:
     problem = linear_problem(replace(design, models=replace(design.models, reverse_flow=False)))
     tables = without_stall(problem.disk, None if design.models.compressibility else LOW_MACH)
     result = trim(
-        replace(problem, disk=replace(problem.disk, tables=tables)),
+        replace(problem, disk=replace(problem.disk, tables=tables, delay=NO_DELAY)),
         options=SolverOptions(slopes=False),
     )
     return (along(result, problem.course), result.state) if result.converged else None

@@ -40,7 +40,7 @@ STALL_SHARE = 0.02
 """Stalled part of the disk above which dynamic stall would change the results."""
 MOST_STALLED = 0.25
 """Part of the lift's moment about the hub, Σ r dT, that stalled sections carry beyond which there is no power. Rotors
-compared with measurement have up to 21 % (an XV-15 tilted aft). Beyond the largest lift a rotor balances the same
+compared with measurement have up to 18 % (an XV-15 tilted aft). Beyond the largest lift a rotor balances the same
 weight once more, at a multiple of the power, with 40 % and more: shares of thrust or disk do not tell them apart."""
 LEAST_ASPECT_RATIO = 10.0
 """R/c below which thrust at a given collective is not trusted. Our choice: that of Caradonna and Tung's rotor (NASA

@@ -160,7 +160,7 @@ class TestReport:
 
     def test_a_change_has_a_colour_where_its_sign_is_known(self):
         near = replace(
-            BASELINE.design, twist=Inputs(law="builtin", built_inner=-1.0).design().twist
+            BASELINE.design, twist=Inputs(law="builtin", built_inner=-0.2).design().twist
         )
         for design, sureness in ((near, "unclear"), (NOW.design, "likely")):
             entry = ReportEntry("Now", solve(design))

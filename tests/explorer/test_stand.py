@@ -123,7 +123,7 @@ def test_the_chart_has_every_point_its_scatter_and_our_error():
     assert drawn
     assert after is not None
     assert after.value.startswith("+")
-    assert "rms 5.6 %" in after.value
+    assert "rms 5.4 %" in after.value
     line, marks, here = curves(after)
     assert isinstance(marks, Points)
     assert marks.y == pytest.approx([5.7, 5.95, 6.2, 6.65])

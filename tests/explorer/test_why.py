@@ -105,7 +105,11 @@ HEAVY, LIGHT = {"mass": 9000.0}, {"mass": 8000.0}
             {"mu": 0.42, "mass": 9.8e3},
             "stall grew .*on the retreating side",
         ),
-        ({"mu": 0.0}, {"mu": 0.15}, "stall appeared inboard on the retreating side"),
+        (
+            {"mu": 0.0, **HEAVY},
+            {"mu": 0.15, **HEAVY},
+            "stall appeared inboard on the retreating side",
+        ),
         (SLOW, {"altitude": 2000.0}, r"^Thinner air \(−18 %\): induced \+.*parasite −"),
         ({"altitude": 2000.0}, SLOW, r"^Denser air \(\+22 %\): induced −"),
         (SLOW, {"mu": 0.25, "twist": "linear:-5", "mass": 9000.0}, "^Several changes at once: "),

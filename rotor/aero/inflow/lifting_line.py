@@ -4,9 +4,11 @@
     Γ = (π/N_b) U_T F_z*/max(U_T², 0.01),  0 in reverse flow                  (Kutta and Joukowski)
 
 F_z* is F_z with lift and drag held beyond the angle of the largest lift (`held_beyond_peak`). If circulation fell with
-the lift, panels beyond stall would have several answers; so Γ falls with every downwash, and there is one. Γ is over
-ΩR², A the influence matrix of a wake that lies along the trim of the same rotor with linear inflow and the blade as
-built: so it stays while twist is changed. Unknowns are the circulations of all panels at all azimuths.
+the lift, panels beyond stall would have several answers; so Γ falls with every downwash, and there is one. Where
+rotation delays stall F_z* has the delay, too, because the wake sees the lift that is there: C_l and C_l* of
+`rotor.airfoil.stall_delay` are both held. Γ is over ΩR², A the influence matrix of a wake that lies along the trim of
+the same rotor with linear inflow and the blade as built: so it stays while twist is changed. Unknowns are the
+circulations of all panels at all azimuths.
 
 The whole wake of A moves at one speed V, so A Γ in hover is N_bΓ/4πV; annuli of momentum theory have λ² = N_bΓ/4π. What
 differs from the mean would be twice too large there. With D, λ_i has the value and the slope of momentum theory where
@@ -76,7 +78,8 @@ def circulation_gain(u_t: Array) -> tuple[Array, Array]:
 def _line_section(c: Array, data: Any, slopes: bool, flow: bool) -> tuple[Array, Array, Array]:
     """The section with its circulation; as `section.section`, with the rows of `LINE_PAIRS`."""
     f, d, s = section(c, data, slopes, flow)
-    still = data._replace(tables=data.held, yawed=False, added=NO_INCREMENTS, **NO_MOMENT)
+    tables = {"tables": data.held, "missing": data.held_missing}
+    still = data._replace(**tables, yawed=False, added=NO_INCREMENTS, **NO_MOMENT)
     held, by_held, _ = section(c, still, slopes, False)
     gain, by_speed = circulation_gain(c[UT])
     f = np.concatenate([f, (gain * held[FZ])[None]])

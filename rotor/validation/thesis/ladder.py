@@ -27,7 +27,7 @@ RUNGS = {
     "axial": "µ sin α in U_P, eq. (3.6)",
     "blade": "blade as built: SC1094 R8, hinge, masses",
     "losses": "swirl, yawed drag, swept tip, download",
-    "unsteady": "unsteady flow and dynamic stall",
+    "unsteady": "unsteady flow, dynamic stall, stall delayed by rotation",
     "elastic": "blade elastic in torsion",
 }
 """Assumptions by name, in the order of the ladder: what takes the place of what."""
@@ -67,6 +67,7 @@ def rung_design(
         compressibility="mach" in on,
         unsteady="unsteady" in on,
         dynamic_stall="unsteady" in on,
+        stall_delay="unsteady" in on,
         elastic_twist="elastic" in on,
         **dict.fromkeys(_LOSSES, "losses" in on),
     )

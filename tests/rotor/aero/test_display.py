@@ -16,7 +16,8 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.inflow.linear import LinearInflow
 from rotor.aero.problem import build_problem
 from rotor.aero.switches import with_switches
-from rotor.design.design import Models
+from rotor.airfoil.stall_delay import delayed_lift
+from rotor.design.design import Models, with_models
 from rotor.files.design_file import design_from_record
 from rotor.trim import Analysis, analyse
 
@@ -155,7 +156,10 @@ class TestFields:
         inner, outer, _ = blade.section_at(float(disk.r[-4]))
         assert inner == outer
         installed = blade.installed(inner)
-        expected = installed.table(disk.alpha[-4] - installed.incidence_offset, disk.mach[-4]).cl
+        gain = float(Analysis(memoryless).linear.problem.disk.delay[-4])
+        assert gain > 0.01
+        alpha = disk.alpha[-4] - installed.incidence_offset
+        expected = delayed_lift(installed.table, gain, alpha, disk.mach[-4])
         assert_allclose(disk.cl[-4], expected, atol=1e-12)
 
 
@@ -184,10 +188,23 @@ class TestAreas:
         ("mu", "mass", "near"), [(0.2, 12e3, 0.1), (FAST, HEAVY, 0.04), (FAST, 11e3, 0.04)]
     )
     def test_stall_is_that_of_a_fine_grid(self, mu: float, mass: float, near: float):
-        design = heavy("pitt-peters", mu).at(mass_kg=mass)
-        fine = solve(
-            replace(design, models=replace(design.models, elements=320, azimuths=360))
-        ).require()
-        coarse = solve(heavy(mu=mu).at(mass_kg=mass)).require()
-        assert fine.stalled_area > 0.002
-        assert_allclose(coarse.stalled_area, fine.stalled_area, rtol=near, atol=2e-4)
+        """Without its delay, which leaves less than 1 % of the disk at µ 0.2."""
+        coarse, fine = self._stalled(mu, mass, delays=False)
+        assert fine > 0.002
+        assert_allclose(coarse, fine, rtol=near, atol=2e-4)
+
+    @pytest.mark.parametrize(
+        ("mu", "mass", "near"), [(0.2, 12e3, 0.0015), (FAST, HEAVY, 0.0015), (FAST, 11e3, 0.0015)]
+    )
+    def test_delayed_stall_is_that_of_a_fine_grid(self, mu: float, mass: float, near: float):
+        """Within .15 % of the disk."""
+        coarse, fine = self._stalled(mu, mass, delays=True)
+        assert fine > 0.002
+        assert_allclose(coarse, fine, rtol=0.0, atol=near)
+
+    def _stalled(self, mu: float, mass: float, *, delays: bool) -> tuple[float, float]:
+        """Stalled area on 24 uneven elements, and on a fine grid."""
+        design = with_models(heavy("pitt-peters", mu).at(mass_kg=mass), stall_delay=delays)
+        fine = replace(design, models=replace(design.models, elements=320, azimuths=360))
+        coarse = with_models(heavy(mu=mu).at(mass_kg=mass), stall_delay=delays)
+        return solve(coarse).require().stalled_area, solve(fine).require().stalled_area

@@ -11,6 +11,7 @@ from rotor import TrimState, make_design
 from rotor.aero.problem import Problem, build_problem
 from rotor.aero.section import FZ, LOSS, TH, UP, UR, UT, arctangent, section
 from rotor.airfoil.sections import load_installed
+from rotor.airfoil.stall_delay import fully_delayed
 from rotor.columns.flight import disk_sums as sums_at
 from rotor.support.arrays import Array
 from rotor.support.compiled import compiled
@@ -74,12 +75,19 @@ def test_velocities_and_loads_by_the_formulas(preset: str):
             # Half a chord beyond the kink.
             sweep = math.radians(20.0) if axial and disk.r[i] > 0.965 else 0.0
             normal = np.hypot(u_t[i] * math.cos(sweep) - along * math.sin(sweep), u_p[i])
-            cl, first, last = (
+            own, first, last = (
                 getattr(
                     section.table(angle[i] - section.incidence_offset, normal * p.tip_mach), name
                 )
                 for angle, name in ((alpha, "cl"), (front, "cd"), (math.pi - front, "cd"))
             )
+            cl = own
+            if axial:
+                ratio = 2.0 * math.pi * disk.half_solidity[i] / (disk.blades * disk.r[i])
+                attached = fully_delayed(section.table)(
+                    alpha[i] - section.incidence_offset, normal * p.tip_mach
+                )
+                cl = own + 3.0 * ratio**2 * (attached.cl - own)
             parts.append((cl, share[i] * first + (1.0 - share[i]) * last))
         cl = (1.0 - weight) * parts[0][0] + weight * parts[1][0]
         cd = (1.0 - weight) * parts[0][1] + weight * parts[1][1]

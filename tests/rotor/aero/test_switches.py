@@ -94,7 +94,7 @@ class TestCompressibility:
         solution = solve(
             with_switches(
                 make_design(mu=0.35),
-                ("compressibility", "swept_tip", "dynamic_stall", "radial_friction"),
+                ("compressibility", "swept_tip", "dynamic_stall", "stall_delay", "radial_friction"),
             )
         ).require()
         disk = solution.disk

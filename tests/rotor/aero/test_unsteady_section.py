@@ -56,9 +56,11 @@ def flat(half_chord: Array) -> UnsteadyData:
     half_solidity, damping = BLADES * half_chord / math.pi, BLADES * half_chord**3
     own = SectionData(
         half_solidity=half_solidity, section=np.zeros((len(none), 2), np.int64), weight=none,
-        offset=np.zeros((len(none), 2)), tables=tables, held=tables[:0], cos_sweep=none + 1.0, sin_sweep=none,
-        tip_mach=1e-9, yawed=False, lossy=False, unloaded=np.zeros((0, 0), np.bool_), added=NO_INCREMENTS,
-        scatter=NO_SCATTER, moment_gain=half_solidity * chord, damping=damping, lag=none,
+        offset=np.zeros((len(none), 2)), tables=tables, held=tables[:0], delay=none[:0],
+        missing=tables[:0], held_missing=tables[:0],
+        cos_sweep=none + 1.0, sin_sweep=none, tip_mach=1e-9, yawed=False, lossy=False,
+        unloaded=np.zeros((0, 0), np.bool_), added=NO_INCREMENTS, scatter=NO_SCATTER,
+        moment_gain=half_solidity * chord, damping=damping, lag=none,
         moment_tables=np.zeros_like(tables[:, :, :, :1]), inertia=none,
     )  # fmt: skip
     return UnsteadyData(

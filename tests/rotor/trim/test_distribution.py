@@ -13,6 +13,7 @@ import rotor
 from rotor import Distribution, Solution, distribution
 from rotor.aero.problem import LOW_MACH, build_problem
 from rotor.aero.unsteady_section import SLOWEST
+from rotor.airfoil.stall_delay import delay_gain, delayed_lift
 
 
 def with_models(design: rotor.Design, **models: object) -> rotor.Design:
@@ -88,14 +89,23 @@ def test_lift_of_unsteady_flow_has_apparent_mass(flight: Solution):
 
 
 def blended(solution: Solution, coefficient: Callable[..., np.ndarray]) -> np.ndarray:
-    """A coefficient at the flow of a solution, one element and azimuth at a time."""
+    """A coefficient at the flow of a solution, one element and azimuth at a time.
+
+    coefficient: of a table, its g of the delay of stall, α and Mach number.
+    """
     disk, blade = solution.disk, solution.design.rotor.blade
     out = np.empty_like(disk.alpha)
     for i, j in np.ndindex(*out.shape):
         inner, outer, share = blade.section_at(float(disk.r[i]))
+        parts = blade.installed(inner), blade.installed(outer)
+        ratio = (1.0 - share) * parts[0].chord_ratio + share * parts[1].chord_ratio
+        chord = blade.chord(float(disk.r[i])) * ratio
+        gain = delay_gain(chord / (disk.r[i] * solution.design.rotor.radius))
         values = [
-            coefficient(at.table, disk.alpha[i, j] - at.incidence_offset, disk.mach[i, j])
-            for at in (blade.installed(inner), blade.installed(outer))
+            coefficient(
+                at.table, float(gain), disk.alpha[i, j] - at.incidence_offset, disk.mach[i, j]
+            )
+            for at in parts
         ]
         out[i, j] = (1.0 - share) * values[0] + share * values[1]
     return out
@@ -104,12 +114,9 @@ def blended(solution: Solution, coefficient: Callable[..., np.ndarray]) -> np.nd
 def test_coefficients_are_those_of_the_section_data(steady: Solution):
     """The look-up of C_m gives the solution's own C_l, so it is at the right angle and Mach number."""
     found = distribution(steady)
-    assert_allclose(
-        found.cl, blended(steady, lambda table, alpha, mach: table(alpha, mach).cl), atol=1e-9
-    )
-    assert_allclose(
-        found.cm, blended(steady, lambda table, alpha, mach: table.moment(alpha, mach)), atol=1e-12
-    )
+    moments = blended(steady, lambda table, gain, alpha, mach: table.moment(alpha, mach))
+    assert_allclose(found.cl, blended(steady, delayed_lift), atol=1e-9)
+    assert_allclose(found.cm, moments, atol=1e-12)
     assert -0.1 < found.cm[found.r > 0.5].mean() < 0.0
 
 

@@ -90,7 +90,7 @@ def test_most_of_what_is_uncertain_is_so_for_both_twists():
     assert found.change_band is not None
     assert found.change_band < 0.15 * found.band
     assert found.sureness == "sure"
-    assert found.sentence.startswith("Power 1379 ± ")
+    assert found.sentence.startswith("Power 1380 ± ")
 
 
 def test_the_drag_area_costs_its_drag_times_speed_and_a_little_more():

@@ -61,18 +61,19 @@ def test_points_as_the_reports_print_them():
 
 @pytest.mark.slow
 def test_hover_of_the_xv15():
-    """Within 3 % up to C_T 0.0121 but for one point at 3.02 %; beyond, power is too high.
+    """Within 2.7 % from C_T 0.0045 to 0.0127, 3.24 % at 0.0041; beyond 0.0139 power is too high.
 
-    There the sections stall too early.
+    There the sections outboard, which rotation helps little, stall too early.
     """
     found = compare(load_set("xv15-hover"), "annulus")
     for point in found.points:
-        if 0.004 <= point.given["ct"] <= 0.0121:
-            assert point.within_scatter or abs(point.error_percent or math.inf) < 3.03
-        if point.given["ct"] > 0.0135:
-            assert point.computed is None or (point.error_percent or 0.0) > 10.0
+        if 0.004 <= point.given["ct"] <= 0.0127:
+            allowed = 2.7 if point.given["ct"] > 0.0042 else 3.25
+            assert point.within_scatter or abs(point.error_percent or math.inf) < allowed
+        if point.given["ct"] > 0.0139:
+            assert point.computed is None or (point.error_percent or 0.0) > 9.0
     assert found.rms_percent is not None
-    assert found.rms_percent < 2.2
+    assert found.rms_percent < 1.4
 
 
 @pytest.mark.parametrize("name", ["xv15-forward-15deg", "xv15-forward-0deg"])
