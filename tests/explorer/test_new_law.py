@@ -27,7 +27,7 @@ class CubicTwist(SpecTwist):
 
 
 ''',
-        "SplineTwist, TableTwist": "CubicTwist, ",
+        "        TableTwist,\n        IdealTwist,\n": "        CubicTwist,\n",
     },
     "optimisation/concepts.py": {
         "    LinearTwist,\n": "    CubicTwist,\n",
@@ -58,6 +58,7 @@ TEST = '''
 import numpy as np
 import pytest
 from rotor import load_design, make_design, optimise
+from rotor.optimisation.descent import TOLERANCE
 from rotor.__main__ import main
 from explorer.model.inputs import LAWS, ROWS, Inputs, inputs_of
 from explorer.model.undo import History
@@ -87,7 +88,8 @@ def test_spec_file_and_command_of_a_cubic(tmp_path, capsys):
 def test_the_best_cubic_needs_no_more_than_the_best_line():
     cubic, line = (optimise(DESIGN, name, starts=1).best for name in ("cubic", "linear"))
     assert cubic.twist.startswith("cubic:")
-    assert cubic.power <= line.power
+    # Each search ends where it foresees less than this part of the power.
+    assert cubic.power <= line.power * (1.0 + 2.0 * TOLERANCE["total"])
 
 
 def test_menu_sliders_link_and_undo_of_a_cubic():
