@@ -36,7 +36,9 @@ class MeasuredPair:
 PAIRS = {
     "3 to 4 blades": MeasuredPair("knight-hefner-3", "knight-hefner-4", (0.004, 0.0055, 0.007)),
     "taper 3:1": MeasuredPair("castles-gray-hover", "castles-gray-tapered", (0.003, 0.004, 0.005)),
-    "twist -12 deg": MeasuredPair("castles-gray-table-1", "castles-gray-twisted", (0.003, 0.004, 0.005)),
+    "twist -12 deg": MeasuredPair(
+        "castles-gray-table-1", "castles-gray-twisted", (0.003, 0.004, 0.005)
+    ),
 }
 """Three C_T each, over the range in which both tables count."""
 
