@@ -1,0 +1,45 @@
+"""What differs from run to run, or from machine to machine, taken out of a text: it says nothing about the program."""
+
+import re
+from collections.abc import Sequence
+from importlib.metadata import version
+
+MASK = "…"
+"""Stands for what was taken out."""
+NUMBER = r"\d[\d.,  ]*"
+"""A printed number, which may have narrow blanks between its thousands."""
+MASKED_KEYS = frozenset(
+    ("elapsed", "elapsed_ms", "elapsed_s", "seconds", "serial", "created", "date")
+)
+"""Names of values that are times or counters of a run."""
+
+_PATTERNS: Sequence[tuple[str, str]] = (
+    # Addresses of objects in memory.
+    (r"\b0x[0-9a-f]{6,}\b", "0x" + MASK),
+    # Times that something took.
+    (rf"{NUMBER}\s?ms\b", f"{MASK} ms"),
+    (rf"\b(in|after|about) {NUMBER}\s?s\b", rf"\1 {MASK} s"),
+    (rf"· {NUMBER}\s?s\b", f"· {MASK} s"),
+    # Where a server listens.
+    (r"127\.0\.0\.1:\d+", f"127.0.0.1:{MASK}"),
+    # A day, and the hour of it.
+    (r"\b20\d\d-\d\d-\d\d(?:[T ]\d\d:\d\d(?::\d\d)?(?:[+-]\d\d:?\d\d|Z)?)?", MASK),
+    # The commit of a checkout, which a plus marks where files differ from it.
+    (r"\b(commit|git) [0-9a-f]{7,40}\+?", rf"\1 {MASK}"),
+)
+_VERSIONED = ("rotor-explorer", "numpy", "scipy", "numba", "viser", "matplotlib")
+"""Packages whose version is written into reports and files."""
+
+
+def masked(text: str, folders: Sequence[str] = ()) -> str:
+    """The text without times, dates, ports, addresses, versions and the paths of these folders."""
+    # The longest first: one folder may lie in another.
+    for folder in sorted(folders, key=len, reverse=True):
+        text = text.replace(folder, MASK)
+    for package in _VERSIONED:
+        text = re.sub(
+            rf"(?i)\b({package}\D{{1,4}}){re.escape(version(package))}", rf"\1{MASK}", text
+        )
+    for pattern, words in _PATTERNS:
+        text = re.sub(pattern, words, text)
+    return text
