@@ -186,7 +186,9 @@ def _array(value: np.ndarray) -> str:
     digest = _digest(np.ascontiguousarray(value).tobytes())
     if value.dtype.kind not in "fiub":
         return f"{kind} {digest}"
-    return f"{kind} {digest} from {_plain(np.nanmin(value))!r} to {_plain(np.nanmax(value))!r}"
+    numbers = value[np.isfinite(value)]
+    ends = f"from {numbers.min()} to {numbers.max()}" if numbers.size else "without a number"
+    return f"{kind} {digest} {ends}"
 
 
 def _digest(data: bytes) -> str:
