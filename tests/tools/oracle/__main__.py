@@ -23,7 +23,15 @@ from .compare import difference, read
 from .record import Record
 
 ROOT = Path(__file__).parents[3]
-KINDS = {"physics": "physics", "text": "texts", "command": "commands"}
+KINDS = {
+    "physics": "physics",
+    "text": "texts",
+    "command": "commands",
+    "picture": "pictures",
+    "export": "exports",
+    "panel": "panels",
+    "search": "searches",
+}
 """Kinds of values, and the module that writes each."""
 _START = """
 import sys

@@ -1,10 +1,14 @@
 """Designs of every kind: each rotor, preset, trim, inflow and twist law, each effect left out, slow, fast and bent."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
+
+from .record import Record
 
 DREES = {"inflow": "drees"}
 """A model of few equations: most of what is read of a solution does not depend on the inflow."""
+QUICK = {"inflow": "uniform", "elements": 12, "azimuths": 24}
+"""A model for what solves many designs."""
 
 FLOWN: Mapping[str, Mapping[str, Any]] = {
     "as built": {"mu": 0.2},
@@ -30,7 +34,7 @@ FLOWN: Mapping[str, Mapping[str, Any]] = {
     "descending": {"mu": 0.12, "climb_m_s": -3.0, **DREES},
     "fast rotor": {"mu": 0.2, "rotor_speed_percent": 105.0, **DREES},
     "turning": {"mu": 0.2, "load_factor": 1.2, **DREES},
-    "few stations": {"mu": 0.2, "inflow": "uniform", "elements": 12, "azimuths": 24},
+    "few stations": {"mu": 0.2, **QUICK},
     "thesis": {"mu": 0.2, "preset": "thesis"},
     "thesis, hover": {"hover": True, "preset": "thesis"},
     "thesis, linear": {"mu": 0.3, "preset": "thesis", "twist": "linear:-10"},
@@ -102,3 +106,15 @@ def all_designs() -> dict[str, Mapping[str, Any]]:
         found[f"{rotor}, hover"] = {"rotor": rotor, "hover": True}
         found[f"{rotor}, linear"] = {"rotor": rotor, "mu": 0.25, "twist": "linear:-8", **DREES}
     return found | dict(STANDS)
+
+
+def solve_named(record: Record, names: Iterable[str], before: str = "") -> dict[str, Any]:
+    """Solutions of designs by name, with some words before it; what does not trim is a value and left out."""
+    found = dict[str, Any]()
+    arguments = all_designs()
+    for name in names:
+        design = record.make(f"{before}{name}/design", "rotor.make_design", **arguments[name])
+        solution = record.make(f"{before}{name}/solution", "rotor.solve", design)
+        if solution is not None and solution.converged:
+            found[before + name] = solution
+    return found

@@ -1,5 +1,6 @@
 """What differs from run to run, or from machine to machine, taken out of a text: it says nothing about the program."""
 
+import hashlib
 import re
 from collections.abc import Sequence
 from importlib.metadata import version
@@ -21,7 +22,8 @@ _PATTERNS: Sequence[tuple[re.Pattern[str], str]] = (
     # Times that something took.
     (re.compile(rf"(?:{NUMBER}\s?ms|(?<=grid, ){NUMBER}\s?s)\b"), f"{MASK} ms"),
     (re.compile(rf"\b(in|after|about) {NUMBER}\s?s\b"), rf"\1 {MASK} s"),
-    (re.compile(rf"· {NUMBER}\s?s\b"), f"· {MASK} s"),
+    (re.compile(rf"(· |evaluations, ){NUMBER}\s?s\b"), rf"\1{MASK} s"),
+    (re.compile(rf"{NUMBER}/(min|s)\b"), rf"{MASK}/\1"),
     (re.compile(r'(elapsed\w*\\?": )[\d.e+-]+'), rf"\1{MASK}"),
     # Where a server listens.
     (re.compile(r"127\.0\.0\.1:\d+"), f"127.0.0.1:{MASK}"),
@@ -36,11 +38,23 @@ _PATTERNS: Sequence[tuple[re.Pattern[str], str]] = (
 )
 
 
+_PACKED = re.compile(r"\S{2000,}")
+"""Pictures and arrays as text."""
+
+
 def masked(text: str, folders: Sequence[str] = ()) -> str:
-    """The text without times, dates, ports, addresses, versions and the paths of these folders."""
+    """The text without times, dates, ports, addresses, versions and the paths of these folders.
+
+    Of packed data it has a digest.
+    """
     # The longest first: one folder may lie in another.
     for folder in sorted(folders, key=len, reverse=True):
         text = text.replace(folder, MASK)
     for pattern, words in _PATTERNS:
         text = pattern.sub(words, text)
-    return text
+    return _PACKED.sub(_digest, text)
+
+
+def _digest(packed: re.Match[str]) -> str:
+    """Stands for every letter of what nobody reads."""
+    return f"⟨{len(packed[0])} letters {hashlib.sha256(packed[0].encode()).hexdigest()[:32]}⟩"

@@ -35,7 +35,7 @@ def write(record: Record) -> None:
         analysis = solve(record, name, arguments)
         if analysis is not None and analysis.solution.converged:
             solved[name] = analysis
-            read_slopes(record, name, analysis)
+            record.scenario(f"{name}/slopes", read_slopes, name, analysis)
     for name, other in (
         ("as built", "inflow drees"),
         ("hover", "hover, linear"),
@@ -47,8 +47,8 @@ def write(record: Record) -> None:
     for name in LOADED:
         record.ask(f"{name}/hub loads", "rotor.hub_loads", solved[name])
     for name in WEIGHTED:
-        read_weighted(record, name, solved[name])
-    follow_steps(record)
+        record.scenario(f"{name}/weighted", read_weighted, name, solved[name])
+    record.scenario("steps", follow_steps)
 
 
 def solve(record: Record, name: str, arguments: Mapping[str, Any]) -> Any:

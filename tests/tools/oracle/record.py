@@ -61,9 +61,21 @@ class Record:
         """Keep what the function under a dotted path returns, and return it; None where it fails."""
         return self._try(name, lambda: named(path)(*arguments, **options), kept=True)
 
+    def call(self, name: str, function: Callable[..., Any], *arguments: Any) -> Any:
+        """As `ask`, of a function that is known already."""
+        return self._try(name, lambda: function(*arguments), kept=True)
+
     def make(self, name: str, path: str, *arguments: Any, **options: Any) -> Any:
         """As `ask`, but for something that is only asked further: kept is no more than why it could not be made."""
         return self._try(name, lambda: named(path)(*arguments, **options), kept=False)
+
+    def run(self, name: str, function: Callable[..., Any], *arguments: Any) -> Any:
+        """As `make`, of a function that is known already."""
+        return self._try(name, lambda: function(*arguments), kept=False)
+
+    def scenario(self, name: str, write: Callable[..., None], *arguments: Any) -> None:
+        """Have a scenario write its values; where it fails half way, those after it are kept all the same."""
+        self.run(f"{name}/whole", write, self, *arguments)
 
     def see(self, name: str, thing: Any, attribute: str) -> Any:
         """Keep what an object has under a name, and return it; None where it fails."""
