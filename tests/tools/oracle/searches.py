@@ -1,0 +1,213 @@
+"""Searches, maps, schedules and fronts as the page asks for them, and what it says of each."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+from .designs import QUICK
+from .pictures import keep_chart, units_by_title
+from .record import Record, named
+
+REQUESTS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
+    "linear": ({"concept": "linear"}, {"mu": 0.3, **QUICK}),
+    "two segments": ({"concept": "two-segment"}, {"mu": 0.3, "twist": "linear:-16", **QUICK}),
+    "free break": ({"concept": "two-segment-free"}, {"mu": 0.2, **QUICK}),
+    "two airfoils": (
+        {"concept": "two-segment-two-airfoils", "division": 0.6},
+        {"mu": 0.3, **QUICK},
+    ),
+    "hover and cruise": (
+        {"concept": "linear", "objective": "hover-cruise", "hover_share": 30.0},
+        {"mu": 0.3, **QUICK},
+    ),
+    "mission": ({"concept": "quadratic", "objective": "mission"}, {"mu": 0.2, **QUICK}),
+    "induced": ({"concept": "linear", "objective": "induced"}, {"mu": 0.2, **QUICK}),
+    "limited": (
+        {"concept": "linear", "stalled": 1.0, "change": 2.0},
+        {"mu": 0.35, "mass_kg": 9000.0, **QUICK},
+    ),
+    "drees": ({"concept": "linear"}, {"mu": 0.25, "inflow": "drees"}),
+    "hover": ({"concept": "linear"}, {"hover": True}),
+    "vibration": (
+        {"concept": "linear", "index": 2.0},
+        {"mu": 0.3, "bending": True, "inflow": "drees"},
+    ),
+    "no cruise": ({"objective": "hover-cruise"}, {"hover": True}),
+    "no bending": ({"index": 2.0}, {"mu": 0.3, **QUICK}),
+}
+"""What a search is asked for, and its design."""
+
+
+def write(record: Record) -> None:
+    """Searches with their words, then maps, schedules, fronts and the best linear twist."""
+    for name, (asked, arguments) in REQUESTS.items():
+        record.scenario(name, search, name, asked, arguments)
+    record.scenario("maps", draw_map)
+    record.scenario("schedule", plan)
+    record.scenario("front", trade)
+    for name, arguments in {
+        "µ 0.3": {"mu": 0.3, "inflow": "drees"},
+        "hover": {"hover": True},
+    }.items():
+        best = record.ask(
+            f"best linear twist at {name}",
+            "rotor.optimisation.search.best_linear_twist",
+            named("rotor.make_design")(**arguments),
+        )
+        for title, units in units_by_title().items():
+            record.ask(
+                f"best linear twist at {name}/{title}",
+                "explorer.charts.doubt.twist_ranges",
+                best,
+                units,
+            )
+
+
+def search(
+    record: Record, name: str, asked: Mapping[str, Any], arguments: Mapping[str, Any]
+) -> None:
+    """A search as a worker process runs it, and all that is said before, under way and at its end."""
+    design = named("rotor.make_design")(**arguments)
+    request = record.ask(f"{name}/request", "explorer.model.search_run.SearchRequest", **asked)
+    legs = named("explorer.model.search_run.legs")
+    found = record.call(f"{name}/search", lambda: str(request.search(design, legs).objective))
+    if found is None:
+        return
+    wanted = replace(request.search(design, legs), starts=2)
+    built = named("explorer.model.inputs.baseline_of")(design)
+    task = record.make(
+        f"{name}/task", "explorer.workers.solver.SearchTask", wanted, built, "as built"
+    )
+    reports = list[Any]()
+    optimum = record.call(f"{name}/optimum", task.run, reports.append, lambda: False)
+    record.keep(f"{name}/reports", {number: str(one)[:400] for number, one in enumerate(reports)})
+    began = record.make(
+        f"{name}/record",
+        "explorer.workers.background.WorkRecord",
+        task,
+        "running",
+        0,
+        tuple(reports[:3]),
+    )
+    ended = named("rotor.support.processes.JobEnded")
+    states = {
+        "begun": began,
+        "stopped": replace(began, reports=tuple(reports[:5])).then(ended(None, stopped=True)),
+        "done": replace(began, reports=tuple(reports)).then(ended(optimum)),
+        "broken": began.then(named("rotor.support.processes.JobFailed")("No more memory.")),
+    }
+    for state, one in states.items():
+        run = record.make(f"{name}/{state}/run", "explorer.model.search_run.SearchRun", one)
+        place = f"{name}/{state}"
+        words = "explorer.text.search_words"
+        record.ask(f"{place}/standing", f"{words}.standing", run)
+        record.ask(f"{place}/result", f"{words}.result", run)
+        record.see(f"{place}/part done", run, "part_done")
+        for title, units in units_by_title().items():
+            record.ask(f"{place}/{title}/headline", f"{words}.headline", run, units)
+            record.ask(f"{place}/{title}/details", f"{words}.details", run, units)
+            for cursor in range(len(run.frames)):
+                record.ask(
+                    f"{place}/{title}/frame {cursor}", f"{words}.frame_line", run, cursor, units
+                )
+
+
+def draw_map(record: Record) -> None:
+    """Power over two parameters of a concept."""
+    design = named("rotor.make_design")(mu=0.3, twist="linear:-12", **QUICK)
+    maps = "explorer.charts.power_map"
+    for name in ("two-segment", "quadratic", "two-segment-free"):
+        concept = named("rotor.optimisation.concepts.CONCEPTS")[name]
+        axes = record.ask(f"map of {name}/axes", f"{maps}.default_axes", concept)
+        objective = named("rotor.optimisation.at_condition")(design)
+        start = record.ask(
+            f"map of {name}/start", "rotor.optimisation.concept.nearest", concept, design.twist
+        )
+        task = record.make(
+            f"map of {name}/task",
+            "explorer.workers.solver.MapTask",
+            design,
+            concept,
+            objective,
+            axes,
+            start,
+        )
+        levels = list[Any]()
+        # A second level is enough: the page refines as long as it has time.
+        record.call(
+            f"map of {name}/run", task.run, levels.append, lambda levels=levels: len(levels) > 3
+        )
+        record.keep(f"map of {name}/levels", levels)
+        known = [one for one in levels if hasattr(one, "powers")]
+        if not known:
+            continue
+        drawn = record.make(
+            f"map of {name}/drawn", f"{maps}.PowerMap", task, named("numpy.array")(known[-1].powers, dtype=float),
+            known[-1].values, known[-1].least,
+        )  # fmt: skip
+        record.ask(f"map of {name}/drawing", f"{maps}.drawing", drawn, design.twist)
+        record.ask(f"map of {name}/place", f"{maps}.place_on", drawn, design.twist)
+        record.call(f"map of {name}/at", lambda drawn=drawn: str(drawn.at(0.3, 0.7)))
+        for title, units in units_by_title().items():
+            record.ask(f"map of {name}/{title}/least", f"{maps}.least_words", drawn, units)
+
+
+def plan(record: Record) -> None:
+    """The best twist of each flight condition, and the best fixed blade."""
+    design = named("rotor.make_design")(mu=0.2, **QUICK)
+    concept = named("rotor.optimisation.concepts.CONCEPTS")["linear"]
+    limits = named("rotor.optimisation.limits.Limits")()
+    legs = record.ask(
+        "schedule/legs", "explorer.model.search_run.legs", design, "0:1, 0.2:2, 0.3:1"
+    )
+    asked = record.make(
+        "schedule/plan",
+        "rotor.optimisation.SchedulePlan",
+        design,
+        (concept,),
+        legs,
+        "total",
+        limits,
+        1,
+    )
+    task = record.make("schedule/task", "explorer.workers.solver.ScheduleTask", asked)
+    reports = list[Any]()
+    record.call(
+        "schedule/ended", lambda: str(type(task.run(reports.append, lambda: False)).__name__)
+    )
+    views = "explorer.charts.schedule_view"
+    for count in (1, len(reports)):
+        one = record.make(
+            f"schedule/{count}/record", "explorer.workers.background.WorkRecord", task, "running", 0,
+            tuple(reports[:count]),
+        )  # fmt: skip
+        progress = record.make(f"schedule/{count}/progress", f"{views}.ScheduleProgress.of", one)
+        keep_chart(
+            record,
+            f"schedule/{count}/twist",
+            record.make(f"schedule/{count}/twist", f"{views}.twist_chart", progress, None),
+        )
+        keep_chart(
+            record,
+            f"schedule/{count}/saving",
+            record.make(f"schedule/{count}/saving", f"{views}.saving_chart", progress, None),
+        )
+        record.see(f"schedule/{count}/count", progress, "count")
+        record.ask(f"schedule/{count}/csv", f"{views}.csv_of", progress)
+        for title, units in units_by_title().items():
+            record.ask(f"schedule/{count}/{title}/table", f"{views}.table", progress, units)
+            record.ask(f"schedule/{count}/{title}/verdict", f"{views}.verdict", progress, units)
+
+
+def trade(record: Record) -> None:
+    """Vibration: response to harmonics, and the front of power against it."""
+    design = named("rotor.make_design")(mu=0.3, bending=True, inflow="drees")
+    matrix = record.ask("front/matrix", "rotor.t_matrix", design, (2, 3))
+    if matrix is not None:
+        record.call("front/response", lambda: matrix.response("3:1:0"))
+    front = record.make("front/found", "rotor.vibration_front", design, points=3)
+    if front is not None:
+        record.keep("front/printed", repr(front))
+        record.keep(
+            "front/points", {number: repr(point) for number, point in enumerate(front.points)}
+        )
