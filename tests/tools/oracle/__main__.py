@@ -31,6 +31,7 @@ KINDS = {
     "export": "exports",
     "panel": "panels",
     "search": "searches",
+    "session": "session",
 }
 """Kinds of values, and the module that writes each."""
 _START = """
