@@ -213,7 +213,8 @@ def test_keys_1987(report: Make):
     )
     for name in one.tables[0].columns[1:]:
         assert (np.diff(column(one.tables[0], name)) < 0.0).all()
-    assert one.numbers["usual_low"] < one.numbers["usual_force"] < one.numbers["usual_high"]
+    # Where the delay of stall counts, the default model has the lowest of the ratios.
+    assert one.numbers["usual_low"] == one.numbers["usual_force"] < one.numbers["usual_high"]
     assert one.numbers["thesis_fast"] > 0.0
     assert one.numbers["thesis-wake_fast"] > 0.02
     assert abs(one.numbers["flight_fast"] - 0.05) > 0.04
