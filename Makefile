@@ -15,7 +15,7 @@ AXE   := $(VENV)/axe-core-4.14.1
 NONE  := || [ $$? -eq 5 ] # Chosen by ARGS, there may be none of a kind.
 PIP   := $(BIN)/python -m pip --disable-pip-version-check --no-input --quiet
 
-.PHONY: help run test test-code test-page slow slow-code slow-page page nightly check-all lint lint-python lint-page format bench docs trust release lowest pictures browser setup setup-dev clean
+.PHONY: help run test test-code test-page slow slow-code slow-page page nightly check-all lint lint-python lint-page format bench oracle docs trust release lowest pictures browser setup setup-dev clean
 .DELETE_ON_ERROR:
 
 help:                 ## list these targets
@@ -84,6 +84,9 @@ format: setup-dev     ## repair formatting and lint
 
 bench: setup-dev      ## time the solver beside its targets; ARGS="--against DIR" beside another checkout too; --page writes docs/measured.md
 	$(BIN)/python -m tests.tools.bench $(ARGS)
+
+oracle: setup-dev     ## prove that no bit changed: ARGS="--against DIR" asks another checkout the same
+	$(BIN)/python -m tests.tools.oracle dist/oracle $(ARGS)
 
 docs: setup-dev $(WARM) ## build the documentation site into dist/docs; it opens from disk
 	@rm -rf dist/docs dist/.doctrees docs/_made
