@@ -85,8 +85,8 @@ format: setup-dev     ## repair formatting and lint
 bench: setup-dev      ## time the solver beside its targets; ARGS="--against DIR" beside another checkout too; --page writes docs/measured.md
 	$(BIN)/python -m tests.tools.bench $(ARGS)
 
-oracle: setup-dev     ## write what this tree answers; ARGS="OUT --against DIR" compares it with another checkout to the bit
-	$(BIN)/python -m tests.tools.oracle $(or $(ARGS),dist/oracle)
+oracle: setup-dev     ## prove that no bit changed: ARGS="--against DIR" asks another checkout the same
+	$(BIN)/python -m tests.tools.oracle dist/oracle $(ARGS)
 
 docs: setup-dev $(WARM) ## build the documentation site into dist/docs; it opens from disk
 	@rm -rf dist/docs dist/.doctrees docs/_made

@@ -1,5 +1,6 @@
 """What `explorer/web/viser.js` changes in viser's client; when one of these fails, the pin may not move."""
 
+import re
 import time
 from dataclasses import replace
 
@@ -45,7 +46,15 @@ def test_no_edit_is_lost_to_one_that_follows_at_once(watched: Watched, app: App)
     """The client has one place for what it keeps back: of three widgets that change within 50 ms it lost the second."""
     titles = {name: switch.title for name, switch in SWITCHES.items()}
     watched.page.get_by_text("Model", exact=True).click()
-    boxes = [watched.row(title).locator("input[type=checkbox]") for title in titles.values()]
+    # One title may begin with another: *Stall delay*, *Stall*.
+    labels = [
+        watched.page.locator("label", has_text=re.compile(rf"^{re.escape(title)}\s*$")).first
+        for title in titles.values()
+    ]
+    rows = [
+        label.locator("xpath=ancestor::div[contains(@class,'Flex-root')][1]") for label in labels
+    ]
+    boxes = [row.locator("input[type=checkbox]") for row in rows]
     boxes[-1].wait_for()
 
     def held() -> list[bool]:

@@ -85,6 +85,11 @@ def faults_in(tree: ast.Module) -> list[tuple[ast.AST, str, ast.AST]]:
     ]
 
 
+def text_with(tree: ast.Module, right: ast.AST, wrong: ast.AST) -> str:
+    """The text of a file with one node in place of another; the tree is changed."""
+    return ast.unparse(ast.fix_missing_locations(_Put(right, wrong).visit(tree)))
+
+
 def name_around(tree: ast.Module, line: int) -> str:
     """The innermost function or class, or the constant, at a line."""
     names = [
@@ -117,7 +122,7 @@ def sample(parts: list[str], each: int, seed: int) -> list[tuple[str, str, str, 
             right, words, wrong = faults_in(tree := ast.parse(texts[file]))[k]
             line = getattr(right, "lineno", 0)
             name = name_around(tree, line)
-            text = ast.unparse(ast.fix_missing_locations(_Put(right, wrong).visit(tree)))
+            text = text_with(tree, right, wrong)
             chosen[str(file.relative_to(ROOT)), f"{line} {words}"] = name, text
     return [(*place, *rest) for place, rest in chosen.items()]
 

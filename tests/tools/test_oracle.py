@@ -1,99 +1,148 @@
-"""The oracle of bits: it masks what differs by chance, shows every other difference, and repeats itself."""
+"""The oracle of bits: what is masked, what differs, names, and that two runs of one tree are equal."""
 
-import os
-import subprocess
-import sys
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from tests.tools.oracle.__main__ import KINDS, ROOT
 from tests.tools.oracle.compare import difference, first_difference
 from tests.tools.oracle.masks import masked
-from tests.tools.oracle.plant import first_change
-from tests.tools.oracle.record import Record
+from tests.tools.oracle.plant import faults_of
+from tests.tools.oracle.record import Record, exact, flattened
+from tests.tools.oracle.run import KINDS, ask
+
+ROOT = Path(__file__).parents[2]
 
 
-@pytest.mark.parametrize(
-    ("one", "other"),
-    [
-        ("trimmed in 12.5 ms", "trimmed in 9 ms"),
-        ("saved 2026-11-30 at 127.0.0.1:8080", "saved 2027-01-02 at 127.0.0.1:43121"),
-        ("<object at 0x7f001122aa>", "<object at 0x7f99bb0011>"),
-        ('{"elapsed_s": 0.25}', '{"elapsed_s": 1.5e-3}'),
-        ("written to /tmp/a1/sweep.csv", "written to /tmp/b22/sweep.csv"),
-    ],
-)
-def test_times_dates_ports_and_paths_are_masked(one: str, other: str):
-    folders = ("/tmp/a1", "/tmp/b22")
-    assert masked(one, folders) == masked(other, folders)
+class TestMasks:
+    @pytest.mark.parametrize(
+        ("one", "other"),
+        [
+            ("24 × 24 grid, 38 ms.", "24 × 24 grid, 1.2 s."),
+            ("22 evaluations, 1.3 s", "22 evaluations, 0.87 s"),
+            ('{\\"elapsed_ms\\": 26.78, \\"a\\": 1}', '{\\"elapsed_ms\\": 3.1e-5, \\"a\\": 1}'),
+            ("12 points in 3 s on 1 worker: 166/min", "12 points in 8 s on 1 worker: 90/min"),
+            ("at http://127.0.0.1:8080/", "at http://127.0.0.1:41233/"),
+            ("<object at 0x7f12ab34cd56>", "<object at 0x7f99ab34cd00>"),
+            ("made 2026-11-30 04:51", "made 2024-01-02 23:00"),
+        ],
+    )
+    def test_what_differs_from_run_to_run_is_taken_out(self, one: str, other: str):
+        assert one != other
+        assert masked(one) == masked(other)
+
+    @pytest.mark.parametrize(
+        "text",
+        ["902.9 kW", "5 m/s, 30 s of arc", "µ 0.2 at 8 322 kg", "0.3 s", "segments:-14,-8@0.5"],
+    )
+    def test_numbers_of_the_program_stay(self, text: str):
+        assert masked(text) == text
+
+    def test_folders_are_taken_out_the_inner_one_first(self):
+        assert masked("/a/b/c.csv in /a", ("/a", "/a/b")) == "…/c.csv in …"
+
+    def test_packed_data_have_a_digest(self):
+        one, other = ("data " + letter * 5000 for letter in "xy")
+        assert masked(one) != masked(other)
+        assert len(masked(one)) < 100
 
 
-@pytest.mark.parametrize(
-    ("one", "other"), [("903 kW", "904 kW"), ("less, sure", "more, sure"), ("µ 0.2", "µ 0.20")]
-)
-def test_numbers_and_words_are_not_masked(one: str, other: str):
-    assert masked(one) != masked(other)
+@dataclass(frozen=True)
+class Named:
+    name: str
+    numbers: tuple[float, ...]
+    elapsed: float = 0.3
 
 
-def values(power: float, count: int) -> dict[str, str]:
-    """What a record keeps of an array with one value of its own."""
-    record = Record()
-    array = np.ones(count)
-    array[-1] = power
-    record.keep("power", array)
-    return record.values
+class TestValues:
+    def test_one_bit_shows(self):
+        field = np.linspace(0.0, 1.0, 50)
+        moved = field.copy()
+        moved[7] = np.nextafter(moved[7], 2.0)
+        assert exact(field) == exact(field.copy())
+        assert exact(field) != exact(moved)
+        assert exact(field) != exact(field.astype(np.float32))
+        assert exact(field) != exact(field.reshape(5, 10))
+        assert exact(0.1 + 0.2) != exact(0.3)
+
+    def test_a_record_has_a_line_for_each_field_and_times_are_masked(self):
+        lines = dict(flattened("a", {"b": Named("c", (1.0, 2.0)), "d": {}}))
+        assert lines == {
+            "a/b/name": '"c"',
+            "a/b/numbers": "[1.0, 2.0]",
+            "a/b/elapsed": "…",
+            "a/d": "{}",
+        }
+
+    def test_a_value_is_one_line(self):
+        assert "\n" not in exact("two\nlines")
+
+    def test_names_are_kept_once_and_without_a_colon(self):
+        record = Record()
+        record.keep("a", 1)
+        with pytest.raises(ValueError, match="kept twice"):
+            record.keep("a", 2)
+        with pytest.raises(ValueError, match="colon"):
+            record.keep("b: c", 2)
+
+    def test_failures_are_values_and_keep_nothing_else_from_its_answer(self):
+        record = Record()
+        assert record.ask("gone", "rotor.trim.no_such_module.solve") is None
+        assert record.ask("never", "rotor.no_such_name") is None
+        assert record.ask("renamed", "math.no_such_name|math.sqrt", 4.0) == 2.0
+        record.ask("wrong", "math.sqrt", -1.0)
+        record.scenario("whole", _half_a_scenario)
+        assert record.lines() == [
+            "before: 1",
+            "gone: absent from this tree: rotor.trim.no_such_module.solve",
+            "never: absent from this tree: rotor.no_such_name",
+            "renamed: 2.0",
+            "whole/whole: failed: KeyError \"'key'\"",
+            'wrong: failed: ValueError "math domain error"',
+        ]
 
 
-@pytest.mark.parametrize("count", [3, 500])
-def test_the_last_bit_of_an_array_shows(count: int):
-    assert values(2.0, count) == values(2.0, count)
-    assert values(2.0, count) != values(float(np.nextafter(2.0, 3.0)), count)
+def _half_a_scenario(record: Record) -> None:
+    record.keep("before", 1)
+    raise KeyError("key")
 
 
-def test_a_failure_and_an_absent_name_are_values():
-    record = Record()
-    record.ask("solve", "rotor.no_such_function")
-    record.call("divide", lambda: 1 / 0)
-    assert record.values["solve"] == "absent from this tree: rotor.no_such_function"
-    assert record.values["divide"] == 'failed: ZeroDivisionError "division by zero"'
+class TestDifferences:
+    def test_each_kind_of_difference_is_named(self):
+        found = difference("text", {"a": "1", "b": "2", "c": "3"}, {"a": "1", "b": "5", "d": "4"})
+        assert (found.changed, found.gone, found.new) == ({"b": ("2", "5")}, ["c"], ["d"])
+        words = found.words()
+        assert "text: 1 changed, 1 gone, 1 new" in words
+        assert all(name in words for name in ("b", "gone: c", "new: d"))
+        assert not difference("text", {"a": "1"}, {"a": "1"})
+
+    def test_the_first_character_that_differs_is_marked(self):
+        there, here = first_difference(f"{'x' * 100} 3.0 kW", f"{'x' * 100} 3.1 kW")
+        assert there == f"- …{'x' * 57} 3.⟦0 kW⟧"
+        assert here == f"+ …{'x' * 57} 3.⟦1 kW⟧"
+
+    def test_a_text_that_ends_sooner_differs_there(self):
+        assert first_difference("ab", "abc") == ("- ab⟦⟧", "+ ab⟦c⟧")
 
 
-def test_each_value_has_a_name_of_its_own():
-    record = Record()
-    record.keep("power", 1.0)
-    with pytest.raises(ValueError, match="kept twice"):
-        record.keep("power", 2.0)
-
-
-def test_a_difference_names_what_changed_and_shows_where():
-    there = {"same": "1", "power": "903 kW", "old": "x"}
-    here = {"same": "1", "power": "904 kW", "new": "y"}
-    found = difference("text", there, here)
-    assert found
-    assert found.changed == {"power": ("903 kW", "904 kW")}
-    assert (found.gone, found.new) == (["old"], ["new"])
-    assert first_difference("903 kW", "904 kW") == ("- 90⟦3 kW⟧", "+ 90⟦4 kW⟧")
-    assert not difference("text", there, there)
-
-
-def test_a_fault_is_seen_by_a_value_or_by_a_kind_that_cannot_be_run():
-    right = {"text": {"line": "less"}}
-    assert first_change(right, {"text": {"line": "more"}}, ["text"]) == "text, line"
-    assert first_change(right, {}, ["text"]) == "text could not be run"
-    assert first_change(right, right, ["text"]) == ""
+def test_faults_are_small_and_drawn_alike():
+    first = faults_of(ROOT, ["explorer/text/line.py"], 8, 1)
+    again = faults_of(ROOT, ["explorer/text/line.py"], 8, 1)
+    other = faults_of(ROOT, ["explorer/text/line.py"], 8, 2)
+    assert list(map(str, first)) == list(map(str, again)) != list(map(str, other))
+    assert len({one.text for one in first}) == 8
 
 
 @pytest.mark.slow
-def test_two_runs_of_a_tree_are_equal(tmp_path: Path):
-    """With other hashes of texts, too, on which the order of sets depends."""
-    assert "search" in KINDS
-    command = [sys.executable, "-m", "tests.tools.oracle", "--only", "search"]
+@pytest.mark.parametrize("kind", KINDS)
+def test_two_runs_of_one_tree_are_equal(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
+    """Also with another order of sets; every name that is asked for exists."""
+    texts = list[str]()
     for seed in ("1", "2"):
-        environment = os.environ | {"PYTHONHASHSEED": seed}
-        subprocess.run([*command, str(tmp_path / seed)], cwd=ROOT, env=environment, check=True)
-    first = (tmp_path / "1" / "search.txt").read_bytes()
-    second = (tmp_path / "2" / "search.txt").read_bytes()
-    assert first.count(b"\n") > 1000
-    assert first == second
+        monkeypatch.setenv("PYTHONHASHSEED", seed)
+        done, words = ask(ROOT, kind, tmp_path)
+        assert done, words
+        texts.append((tmp_path / f"{kind}.txt").read_text("utf-8"))
+    assert texts[0] == texts[1]
+    assert ": absent from this tree" not in texts[0]

@@ -1,93 +1,161 @@
-"""Which small faults in a file change a value of the oracle?
+"""Small faults planted in a copy of the tree, one by one: which of them changes a value?"""
 
-    python -m tests.tools.oracle.plant FILE [--count N] [--seed N] [--only KIND,…]
-
-Before a file is rewritten, this shows whether the oracle would see a mistake in it. Faults are those of
-`tests.tools.faults`, each planted alone in a copy of this checkout. Exit code 1 where one of them changes nothing.
-"""
-
-import argparse
+import ast
+import os
+import random
+import resource
 import shutil
-import sys
 import tempfile
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
-from tests.tools import faults
+from tests.tools.faults import faults_in, text_with
 
-from .__main__ import KINDS, ROOT, Run
 from .compare import difference, read
 
-COPIED = ("rotor", "explorer", "tests", "assets", "pyproject.toml")
-"""What a checkout needs to answer."""
+LEFT_OUT = (".git", ".venv", "artefacts", "dist", ".hypothesis", ".pytest_cache", "docs")
+"""Folders that no value depends on."""
+FIRST = {
+    "explorer/text": ("text", "panel", "search", "export"),
+    "explorer/story": ("text",),
+    "explorer/sharing": ("text", "session"),
+    "explorer/views": ("panel", "session"),
+    "explorer/charts": ("picture", "panel", "search", "export", "session"),
+    "explorer/picture": ("picture", "export", "session"),
+    "explorer/export": ("export", "session"),
+    "explorer/model": ("panel", "text", "search", "session"),
+    "explorer/widgets": ("session",),
+    "rotor/command": ("command",),
+    "rotor/validation": ("command", "text"),
+    "rotor/optimisation": ("search", "command"),
+    "rotor/study": ("command",),
+    "rotor/actuator": ("panel", "command"),
+    "rotor": ("physics", "command", "text"),
+}
+"""By the folder of a fault, the kinds that are most likely to notice it; the others follow."""
+SECONDS = 900
+"""Processor time of one kind: a fault may make a loop endless."""
+Asked = Callable[[Path, str, Path], bool]
+"""Writes the values of a checkout, a kind of them, into a folder; False where that fails."""
 
 
-def copy_checkout(place: Path) -> None:
-    """Copy this checkout, with its compiled kernels, whose sources keep their times."""
-    place.mkdir()
-    for name in COPIED:
-        source = ROOT / name
-        if source.is_dir():
-            shutil.copytree(source, place / name)
-        else:
-            shutil.copy2(source, place / name)
+@dataclass(frozen=True)
+class Fault:
+    """One thing that is wrong in a file."""
+
+    file: str
+    line: int
+    words: str
+    """What stands there, and what in its place."""
+    text: str
+    """The file with the fault."""
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}: {self.words}"
 
 
-def answers(checkout: Path, kinds: Sequence[str], out: Path) -> dict[str, dict[str, str]]:
-    """Values by name of each kind that could be run."""
-    out.mkdir()
-    ran = [kind for kind in kinds if Run(checkout, kind, out).go()]
-    return {kind: read(out, kind) for kind in ran}
+def faults_of(root: Path, files: Sequence[str], count: int, seed: int) -> list[Fault]:
+    """So many faults drawn from all that the files, or the files of folders, can have."""
+    found = list[tuple[str, int]]()
+    texts = dict[str, str]()
+    for place in files:
+        for path in sorted((root / place).rglob("*.py")) or [root / place]:
+            file = str(path.relative_to(root))
+            texts[file] = path.read_text("utf-8")
+            found += [(file, number) for number in range(len(_faults(ast.parse(texts[file]))))]
+    drawn = random.Random(seed).sample(found, min(count, len(found)))
+    return [_fault(file, texts[file], number) for file, number in sorted(drawn)]
 
 
-def first_change(
-    right: dict[str, dict[str, str]], wrong: dict[str, dict[str, str]], kinds: Sequence[str]
+def plant(
+    root: Path, files: Sequence[str], count: int, seed: int, kinds: Sequence[str], ask: Asked
+) -> list[Fault]:
+    """Print of each fault which kind notices it, and by which value; returns those that none does."""
+    missed = list[Fault]()
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        checkout = shutil.copytree(
+            root, folder / "tree", ignore=shutil.ignore_patterns(*LEFT_OUT), symlinks=True
+        )
+        known = dict[str, dict[str, str]]()
+        for fault in faults_of(root, files, count, seed):
+            noticed = ""
+            for kind in _order(fault.file, kinds):
+                if kind not in known:
+                    known[kind] = _values(checkout, kind, folder, ask) or {}
+                noticed = _noticed(checkout, fault, kind, folder, known[kind], ask)
+                if noticed:
+                    break
+            print(f"{fault}: {noticed or 'NOT NOTICED'}", flush=True)
+            if not noticed:
+                missed.append(fault)
+    return missed
+
+
+def _order(file: str, kinds: Sequence[str]) -> list[str]:
+    """The kinds, the likeliest first."""
+    parts = [part for part in FIRST if file.startswith(f"{part}/")]
+    likely = FIRST[max(parts, key=len)] if parts else ()
+    first = [kind for kind in likely if kind in kinds]
+    return first + [kind for kind in kinds if kind not in first]
+
+
+def _noticed(
+    checkout: Path, fault: Fault, kind: str, folder: Path, known: dict[str, str], ask: Asked
 ) -> str:
-    """The first kind that a fault changes, with the name of a value; empty where all are equal."""
-    for kind in kinds:
-        if kind not in wrong:
-            return f"{kind} could not be run"
-        found = difference(kind, right[kind], wrong[kind])
-        names = [*found.changed, *found.gone, *found.new]
-        if names:
-            return f"{kind}, {names[0]}"
-    return ""
+    """How many values of a kind a fault changes, and the first of them; empty where it changes none."""
+    place = checkout / fault.file
+    before = place.read_bytes()
+    stat = place.stat()
+    place.write_text(fault.text, "utf-8")
+    try:
+        values = _values(checkout, kind, folder, ask)
+    finally:
+        place.write_bytes(before)
+        # With the time of before, the kernels that are kept for the file serve again.
+        os.utime(place, ns=(stat.st_atime_ns, stat.st_mtime_ns))
+    if values is None:
+        return f"{kind} cannot be run"
+    found = difference(kind, known, values)
+    names = [*found.changed, *found.gone, *found.new]
+    return f"{kind}, {len(names)} values, {names[0]}" if names else ""
 
 
-def main() -> int:
-    """Plant each fault, and print what it changes."""
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("file", help="file of rotor or explorer, from the root of the checkout")
-    parser.add_argument("--count", type=int, default=6, help="faults (default 6)")
-    parser.add_argument("--seed", type=int, default=1, help="draws them (default 1)")
-    parser.add_argument("--only", default=",".join(KINDS), metavar="KIND,…")
-    args = parser.parse_args()
-    if not (ROOT / args.file).is_file():
-        parser.error(f"{args.file} is no file of {ROOT}: give one of rotor or explorer")
-    kinds = [kind for kind in args.only.split(",") if kind in KINDS]
-    unseen = 0
-    with tempfile.TemporaryDirectory() as folder:
-        checkout = Path(folder, "checkout")
-        copy_checkout(checkout)
-        right = answers(checkout, kinds, Path(folder, "right"))
-        if len(right) < len(kinds):
-            return 2
-        place = checkout / args.file
-        before = place.read_text("utf-8")
-        planted = faults.sample([args.file], args.count, args.seed)
-        for number, (_, where, name, text) in enumerate(planted):
-            place.write_text(text, "utf-8")
-            wrong = answers(checkout, kinds, Path(folder, f"wrong{number}"))
-            place.write_text(before, "utf-8")
-            changed = first_change(right, wrong, kinds)
-            print(f"{args.file}:{where} in {name}: {changed or 'NOT NOTICED'}", flush=True)
-            if not changed:
-                unseen += 1
-        print(f"{len(planted) - unseen} of {len(planted)} faults change a value")
-    return 1 if unseen else 0
+def _values(checkout: Path, kind: str, folder: Path, ask: Asked) -> dict[str, str] | None:
+    return read(folder, kind) if ask(checkout, kind, folder) else None
 
 
-if __name__ == "__main__":
-    sys.exit(main())
+def limited() -> Callable[[], None]:
+    """Limits the processor time of a process that is started."""
+    return partial(resource.setrlimit, resource.RLIMIT_CPU, (SECONDS, SECONDS))
+
+
+def _fault(file: str, text: str, number: int) -> Fault:
+    tree = ast.parse(text)
+    right, words, wrong = _faults(tree)[number]
+    return Fault(file, getattr(right, "lineno", 0), words, text_with(tree, right, wrong))
+
+
+def _faults(tree: ast.Module) -> list[tuple[ast.AST, str, ast.AST]]:
+    """Operators, numbers and returned values as `tests.tools.faults` has them, and texts without a word."""
+    return faults_in(tree) + list(_texts(tree))
+
+
+def _texts(tree: ast.Module) -> Iterator[tuple[ast.AST, str, ast.AST]]:
+    """Every text of several words without its first, docstrings apart."""
+    documentation = {
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+    }
+    for node in ast.walk(tree):
+        if (
+            isinstance(node, ast.Constant)
+            and isinstance(node.value, str)
+            and node not in documentation
+        ):
+            first, _, rest = node.value.partition(" ")
+            if first.isalpha() and rest:
+                yield node, f"{node.value[:40]!r} without {first!r}", ast.Constant(rest)
