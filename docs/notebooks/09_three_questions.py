@@ -7,8 +7,8 @@ three questions. There are two presets. ``flight``, the default, uses the best m
 angle of attack and Mach number, hinge offset, blades elastic in torsion, propulsive trim with cyclic, and a lifting
 line. ``thesis`` uses the models of the thesis. Check its figures with ``python -m rotor reproduce OUT``.
 
-**How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −12.2° at µ 0.2 and −11.6°
-at 0.35 (−9.6 to −12.3° over the inflow models, −6.9° without fuselage drag). Twist that follows speed saves 0.2 % over
+**How should twist change with speed?** The best linear twist is −16.5° per radius in hover, −12.1° at µ 0.2 and −11.6°
+at 0.35 (−9.6 to −12.3° over the inflow models, −7.1° without fuselage drag). Twist that follows speed saves 0.2 % over
 the best fixed twist, 0.1 to 0.3 % over the inflow models: 1 to 4 kW, mostly up to µ 0.1 (``schedule``, eight speeds
 from hover to µ 0.35; from µ 0.1 up 1.8 kW). The saving is likely, not sure (2.8 ± 2.4 kW): its sign held for
 every input and model that was varied alone, its size did not.
