@@ -46,7 +46,7 @@ def test_rotors_and_verdicts_are_those_of_the_trust_pages():
     verdicts = verdicts_on_pages()
     met = [words == {"met"} for words in verdicts.values()]
     assert {"met"} < set().union(*verdicts.values())
-    said(f"{met.count(True)} of {len(met)} measured quantities meet their target")
+    said(f"The error of {met.count(True)} of {len(met)} measured quantities is within its target")
     for what, page in readme.ROTORS.items():
         own = [words == {"met"} for (name, _), words in verdicts.items() if name == page]
         (line,) = (line for line in README.splitlines() if line.startswith(f"| {what} |"))

@@ -13,18 +13,18 @@ from scipy.optimize import nnls
 
 import explorer
 import rotor
-from rotor.validation import public_data
+from rotor.validation import load_set
 
-measured = public_data()["hover"]
-print(measured["kind"])
+measured = load_set("uh60a-hover")
+print(measured.report)
 
 # %%
 # Trim at each measured thrust: adjust the mass until the thrust coefficient agrees.
 
 design = rotor.make_design(hover=True)
-sigma = measured["solidity"]
-thrust = np.array(measured["ct_over_sigma"]) * sigma
-power = np.array(measured["cp_over_sigma"]) * sigma
+sigma = design.rotor.solidity
+thrust = np.array([point["ct"] for point in measured.points])
+power = np.array([point["cp"] for point in measured.points])
 
 
 def trimmed(ct: float) -> rotor.Solution:

@@ -124,10 +124,6 @@ def _trust_row(row: TrustRow) -> Markup:
     return tag("div.rx-trust-row", compared, tag("b", _printed(row.shown)), title=hint)
 
 
-_DIGITISED = "uh60a-hover"
-"""The set whose rows give the worst and the best of its points, in hover by annuli."""
-
-
 @dataclass(frozen=True)
 class ValidationRecord:
     """What measurement says about a rotor here."""
@@ -171,13 +167,8 @@ def validated(solution: Solution) -> ValidationRecord:
     if design.pitch_per_rev:
         parts.append("The test used collective and cyclic only.")
     parts.append(measured.remarks)
-    size, error = (
-        "within" if measured.name == _DIGITISED else "rms",
-        0.0 if row.error is None else abs(row.error),
-    )
-    words = (
-        "outside the test range" if outside else f"measured: {size} {number(100.0 * error, 1)} %"
-    )
+    error = 0.0 if row.error is None else abs(row.error)
+    words = "outside the test range" if outside else f"measured: rms {number(100.0 * error, 1)} %"
     return ValidationRecord(words, _printed(*parts), measured)
 
 
@@ -257,7 +248,5 @@ def beyond(measured: MeasuredSet, solution: Solution) -> str:
 def row_of(measured: MeasuredSet, inflow: str) -> TrustRow | None:
     """The row of a set with an inflow model; None where that was not compared."""
     rows = [row for row in trust_rows() if row.set == page_of(measured.name)]
-    if measured.name == _DIGITISED:
-        return rows[0] if inflow == "annulus" else None
     own = [row for row in rows if row.what.startswith(f"{measured.title}: ")]
     return next((row for row in own if row.what.endswith(f", inflow {inflow}")), None)

@@ -55,10 +55,7 @@ def add_parser(commands: Any) -> None:
 
 
 def run(args: argparse.Namespace) -> int:
-    """0 when every point with a target trims, else 1; a missed target is a result, not a failure.
-
-    Of a set without a target every point counts.
-    """
+    """0 when every point that counts trims, else 1; a missed target is a result, not a failure."""
     if args.plot:
         drawing_module()  # Fails before the trims if matplotlib is missing.
     names = args.sets or [*PAGES, *FIELDS]
@@ -104,13 +101,7 @@ def run(args: argparse.Namespace) -> int:
     for name in pages if args.page else ():
         page = write_set(TRUST_SETS[name](), make_folder(args.page))
         print(f"page: {page}", file=sys.stderr)
-    return (
-        0
-        if all(
-            point.computed is not None for comparison in comparisons for point in comparison.judged
-        )
-        else 1
-    )
+    return 1 if any(comparison.lost for comparison in comparisons) else 0
 
 
 _DIFFERENCES = (
@@ -201,11 +192,10 @@ def report(comparison: Comparison) -> str:
     for point in comparison.points:
         computed, words = None, point.message
         if point.computed is not None:
-            missed = "" if point.passed else ", misses the target"
             aside = "" if point in comparison.judged else " (not counted)"
             computed, words = (
                 point.computed[quantity],
-                f"{'yes' if point.within_scatter else 'no'}{missed}{aside}",
+                f"{'yes' if point.within_scatter else 'no'}{aside}",
             )
         where = (point.given[name] for name in measured.given)
         scatter = measured.scatter_of({**point.given, **point.measured})
@@ -218,31 +208,23 @@ def report(comparison: Comparison) -> str:
         table(columns, cells).text(),
         wrapped(verdict(comparison)),
     ]
-    if lost := [point for point in comparison.points if point.computed is None]:
-        counted = sum(point.judged for point in lost)
-        where = f"{counted} of them with a target" if counted else "none of them with a target"
-        lines.append(f"{len(lost)} of {len(comparison.points)} points do not trim, {where}.")
+    lost = sum(point.computed is None for point in comparison.points)
+    if lost:
+        where = f"{comparison.lost} of them counted" if comparison.lost else "none of them counted"
+        lines.append(f"{lost} of {len(comparison.points)} points do not trim, {where}.")
     lines += [wrapped(words) for words in (measured.remarks, comparison.why_missed) if words]
     return "\n".join(lines)
 
 
 def verdict(comparison: Comparison) -> str:
     """Root mean square, worst error and target in one line."""
-    unit = comparison.measured.unit
-    rms = (
-        "a point does not trim"
-        if comparison.rms_percent is None
-        else f"rms {comparison.rms_percent:.1f} {unit}"
-    )
-    worst = (
-        ""
-        if comparison.worst_percent is None
-        else f", worst {comparison.worst_percent:+.1f} {unit}"
-    )
-    target = "indicative, without a target"
+    target = "no target"
     if comparison.passed is not None:
         target = f"target {comparison.measured.target}: {'met' if comparison.passed else 'missed'}"
-    return f"{rms}{worst}; {target}"
+    if comparison.rms_percent is None:
+        return f"no point trims; {target}"
+    unit = comparison.measured.unit
+    return f"rms {comparison.rms_percent:.1f} {unit}, worst {comparison.worst}; {target}"
 
 
 def draw(comparison: Comparison, folder: Path) -> Path:

@@ -28,7 +28,6 @@ from rotor.validation.trust import KINDS, VERDICTS, TrustRow, TrustSet, quantiti
 
 SETS: dict[str, Callable[[], TrustSet]] = {
     **{name: partial(measured_set, name) for name in MEASURED},
-    "uh60a-hover": uh60a.hover_set,
     INFLOW_SET: inflow_set,
     hart2.SET: hart2.hart2_set,
     flown.AIRLOADS: flown.gazelle_set,
@@ -63,8 +62,8 @@ _ASKS = {
     "validation": "Are these the right equations? No measured forward-flight power of the UH-60A and no measured "
     "benefit of active twist were available; published figures of both are computed. No usable measurement shows what "
     "built-in twist saves.",
-    "indicative": "These sets compare with another model, data of unclear origin or a measurement without a target. "
-    "They prove nothing.",
+    "indicative": "These sets compare with another model, or with data whose origin or test is unclear. They prove "
+    "nothing.",
     "verification": "Are the equations solved correctly?",
     "public code": "Do independent codes give the same results?",
     "document": "These are statements of the thesis beside our results.",

@@ -146,14 +146,17 @@ def loops_set() -> TrustSet:
     rows_of = {
         name: [
             words.row(
-                f"{words.title}: {name}, {loop.motion}", f"rms {dynamic:.3f}", dynamic, 0.005,
-                note=words.notes.get(name, ""), target=f"{static:.3f}, that of static data", met=dynamic <= static,
+                f"{words.title}: {name}, {loop.motion}",
+                f"rms {dynamic:.3f}, of static data {static:.3f}",
+                dynamic,
+                0.005,
+                note=words.notes.get(name, ""),
             )
             for loop in loops
             for dynamic, static in [(loop.rms(loop.dynamic)[k], loop.rms(loop.static)[k])]
         ]
         for k, name in enumerate(NAMES)
-    }  # fmt: skip
+    }
     error = "; ".join(
         f"{name} rms {', '.join(f'{row.error:.2f}' for row in rows)}"
         for name, rows in rows_of.items()

@@ -21,7 +21,7 @@ ROTORS = {
     "Bo 105, forward flight": "",
     "PCA-2, forward flight": "pca2",
 }
-"""The page of each measured rotor, by what it is called among the bands; Bo 105's power has no target."""
+"""The page of each measured rotor, by what it is called among the bands; that of the Bo 105 is the page of the Gazelle."""
 
 
 def measured_quantities() -> dict[tuple[str, str], bool]:
@@ -63,7 +63,8 @@ def section() -> str:
         "## How far to trust it\n\n"
         f"{100 * coverage():.0f} % of measured powers lie in the [band](docs/validation/doubt.md) of the computed one; "
         "each rotor's band is fitted to the others.\n"
-        f"{sum(met.values())} of {len(met)} measured quantities meet their target; only the wake's path is fitted. "
+        f"The error of {sum(met.values())} of {len(met)} measured quantities is within its target, the scatter of the "
+        "test alone. Only the wake's path is fitted. "
         "[All comparisons](docs/validation.md), [what is not modelled](docs/validation.md#not-modelled).\n\n"
         + "\n".join(lines)
         + "\n\n"

@@ -13,6 +13,7 @@ from rotor.airfoil import polynomial
 from rotor.support.assets import toml_asset
 from rotor.support.chart import Axis, Chart
 from rotor.trim.solve import solve
+from rotor.validation.compare import compare, load_set
 from rotor.validation.thesis.ladder import rung_design
 from rotor.validation.thesis.report import (
     Agreement,
@@ -27,7 +28,6 @@ from rotor.validation.thesis.report import (
 from rotor.validation.thesis.runs import solve_variant
 from rotor.validation.uh60a import (
     SLOWEST,
-    hover_comparison,
     model_curve_comparison,
     model_curve_errors,
 )
@@ -244,7 +244,10 @@ def figure_3_10() -> Report:
     }
     computed = {name: model_curve_comparison(name)[2] for name in TWISTS}
     rotor_speeds, theirs, _ = model_curve_comparison("flight")
-    hover_ct, hover_cp, hover_computed = hover_comparison()
+    hovering = compare(load_set("uh60a-hover"))
+    hover_ct = [point.given["ct"] for point in hovering.points]
+    hover_cp = [point.measured["cp"] for point in hovering.points]
+    hover_computed = [(point.computed or {})["cp"] for point in hovering.points]
     error, mean = model_curve_errors()
     thesis_error, thesis_mean = model_curve_errors("thesis")
     plain, *raised = (
@@ -270,8 +273,8 @@ def figure_3_10() -> Report:
     measured = curve("digitised, provenance incomplete", hover_ct, hover_cp, "points", colour=7)
     hover = panel(
         "hover",
-        "C_T/σ (σ = 0.0826)",
-        "C_P/σ",
+        "C_T",
+        "C_P",
         (curve("flight", hover_ct, hover_computed), measured),
     )
     return report(
@@ -290,7 +293,7 @@ def figure_3_10() -> Report:
             ),
             table(
                 "hover_points",
-                ("ct_over_sigma", "cp_over_sigma_digitised", "cp_over_sigma_flight"),
+                ("ct", "cp_digitised", "cp_flight"),
                 zip(hover_ct, hover_cp, hover_computed, strict=True),
             ),
         ),

@@ -17,6 +17,8 @@ from rotor.validation import Comparison, compare, design_at, load_set
 from rotor.validation.compare import FIELDS, SETS, ComparedPoint, measured_set
 from rotor.validation.inflow import above_disk, inflow_agreement, measured_inflow, trimmed
 from rotor.validation.page import SETS as TRUST_SETS
+from rotor.validation.scatter import scatter_about_law
+from rotor.validation.trust import rms
 from tests.power_laws import change_of, power_law
 from tests.shipped_rows import still_true
 
@@ -30,9 +32,6 @@ def test_sets_are_complete(name: str):
         assert {*measured.given, measured.quantity} <= set(point)
         assert all(math.isfinite(value) for value in point.values())
         assert measured.scatter_of(point) > 0.0
-    assert measured.indicative == (
-        measured.tolerance is None and measured.tolerance_percent is None
-    )
     assert any(map(measured.counts, measured.points))
 
 
@@ -72,13 +71,18 @@ def test_hover_of_the_xv15():
             assert point.within_scatter or abs(point.error_percent or math.inf) < allowed
         if point.given["ct"] > 0.0139:
             assert point.computed is None or (point.error_percent or 0.0) > 9.0
-    assert found.rms_percent is not None
-    assert found.rms_percent < 1.4
+    middle = [
+        point.error_percent
+        for point in found.points
+        if point.error_percent is not None and 0.004 <= point.given["ct"] <= 0.013
+    ]
+    assert rms(middle) < 1.4
+    assert (found.lost, found.passed) == (3, False)
 
 
 @pytest.mark.parametrize("name", ["xv15-forward-15deg", "xv15-forward-0deg"])
 def test_forward_flight_of_the_xv15_by_uniform_inflow(name: str):
-    """With uniform inflow both targets are met; a wake that responds to the load adds 0.00001 to 0.00041."""
+    """With uniform inflow torque is within 5 % or 0.0004; a wake that responds to the load adds 0.00001 to 0.00041."""
     measured, upright = load_set(name), name.endswith("-0deg")
     for point in measured.points:
         design = design_at(measured, point)
@@ -87,8 +91,8 @@ def test_forward_flight_of_the_xv15_by_uniform_inflow(name: str):
             / design.rotor.solidity
             for inflow in ("uniform", design.models.inflow)
         )
-        target = 0.0004 if upright else 0.05 * point["cq_over_sigma"]
-        assert abs(simple - point["cq_over_sigma"]) < target
+        largest = 0.0004 if upright else 0.05 * point["cq_over_sigma"]
+        assert abs(simple - point["cq_over_sigma"]) < largest
         assert 0.00001 < full - simple < 0.0006
 
 
@@ -122,9 +126,8 @@ def test_torque_of_castles_and_gray_where_thrust_was_measured(name: str):
     The least thrust at Mach 0.45 takes torque: counted from the zero at Mach 0.34 it gave some.
     """
     measured = load_set(f"castles-gray-{name}")
-    assert 100.0 * power_law(measured.name, 0.002, 0.004).scatter == pytest.approx(
-        measured.scatter_percent, abs=0.05
-    )
+    scatter = power_law(measured.name, 0.002, 0.004).scatter
+    assert measured.relative_scatter == pytest.approx(scatter, rel=1e-3)
     points = compare(measured, "annulus").points
     assert (
         2.0
@@ -139,12 +142,12 @@ def test_torque_of_castles_and_gray_where_thrust_was_measured(name: str):
 def test_lift_along_a_stubby_blade_is_met_at_the_measured_thrust_but_not_at_the_measured_pitch():
     """Two blades five chords long: 1 to 3° less pitch than measured give its thrust, and its c_l along them."""
     lift, level = (compare(load_set(name)) for name in ("caradonna-tung-lift", "caradonna-tung"))
-    assert lift.passed
-    assert level.passed is None
+    assert lift.passed is None  # Nobody states the scatter of c_l.
+    assert level.passed is False
     for point in level.points:
         assert point.error_percent is not None
         assert 20.0 < point.error_percent < 70.0
-    assert f"within {-float(lift.worst[:-2])} %" in level.measured.note
+    assert f"within {-float(lift.worst.removesuffix(' %'))} %" in level.measured.note
     page = measured_set("caradonna-tung")
     less = map(float, re.findall(r"([\d.]+)° \(", page.text[-1]))
     for row, pitch, lower in zip(page.rows[1:], (5.0, 8.0, 12.0), less, strict=True):
@@ -161,7 +164,8 @@ def test_lift_along_a_stubby_blade_is_met_at_the_measured_thrust_but_not_at_the_
             }
             for p in points
         ]
-        again = compare(replace(level.measured, points=tuple(found))).points
+        shifted = replace(level.measured, points=tuple(found), scatter_percent=3.0)
+        again = compare(shifted).points
         assert np.mean([point.error_percent or math.inf for point in again]) == pytest.approx(
             0.0, abs=2.0
         )
@@ -271,27 +275,68 @@ def test_measured_inflow():
         assert np.corrcoef(lower, measured.inflow)[0, 1] == pytest.approx(in_disk, abs=0.01)
 
 
-def test_points_that_do_not_trim_are_counted_and_decide_only_where_a_target_is_set(
+def test_points_that_do_not_trim_are_counted_and_a_set_with_one_is_missed(
     capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ):
-    measured = load_set("xv15-hover")
+    measured = load_set("knight-hefner-4")
 
     def answer(lost: set[int]) -> Comparison:
         points: list[ComparedPoint] = []
         for k, point in enumerate(measured.points):
-            trims, judged = k not in lost, measured.counts(point)
-            computed, said, error = (point, "", 0.0) if trims else (None, "Not trimmed.", None)
-            points.append(
-                ComparedPoint(
-                    point, point, computed, said, error, trims, judged, trims or not judged
-                )
-            )
+            computed, said, error = (point, "", 0.0)
+            if k in lost:
+                computed, said, error = None, "Not trimmed.", None
+            counts = measured.counts(point)
+            points.append(ComparedPoint(point, point, computed, said, error, k not in lost, counts))
         return Comparison(measured, "annulus", tuple(points))
 
-    for lost, code, words in (
-        ({48, 49}, 0, "2 of 50 points do not trim, none of them with a target."),
-        ({20, 49}, 1, "2 of 50 points do not trim, 1 of them with a target."),
+    for lost, code, words, verdict in (
+        ({0, 1}, 0, "2 of 12 points do not trim, none of them counted.", "met"),
+        ({0, 11}, 1, "2 of 12 points do not trim, 1 of them counted.", "missed"),
     ):
         monkeypatch.setattr("rotor.command.validate.compare", lambda *_, lost=lost: answer(lost))
-        assert main(["validate", "xv15-hover"]) == code
-        assert words in capsys.readouterr().out
+        assert main(["validate", "knight-hefner-4"]) == code
+        printed = capsys.readouterr().out
+        assert words in printed
+        assert f"for ct 0.004…0.01: {verdict}" in printed
+
+
+def test_a_model_without_error_meets_its_target_in_19_of_20_tests():
+    """Drawn tests of the points of a set, with its scatter; the target follows from the scatter alone."""
+    rng = np.random.default_rng(7)
+    for name in ("knight-hefner-3", "castles-gray-hover", "xv15-hover"):
+        measured = load_set(name)
+        assert measured.largest_rms is not None
+        count = sum(map(measured.counts, measured.points))
+        drawn = rng.normal(0.0, measured.relative_scatter, (20_000, count))
+        met = np.sqrt(np.mean(drawn**2, axis=1)) <= measured.largest_rms
+        assert met.mean() == pytest.approx(0.95, abs=0.006)
+
+
+def test_the_scatter_about_a_law_is_that_of_drawn_points():
+    """Points drawn about a law of the fitted degree have their scatter; a law of a higher degree changes little."""
+    rng = np.random.default_rng(3)
+    ct = np.linspace(0.002, 0.015, 400)
+    cp = 0.5 * ct**1.5 * np.exp(0.2 * np.log(ct / 0.006) ** 2) * rng.lognormal(0.0, 0.03, ct.size)
+    points = [{"ct": x, "cp": y} for x, y in zip(ct, cp, strict=True)]
+    assert scatter_about_law(points, "cp", {"ct": 2}) == pytest.approx(0.03, rel=0.1)
+    assert scatter_about_law(points, "cp", {"ct": 1}) > 0.05
+    with pytest.raises(ValueError, match="3 points do not show their scatter about 3 terms"):
+        scatter_about_law(points[:3], "cp", {"ct": 2})
+    laws = [measured for measured in map(load_set, SETS) if measured.scatter_law]
+    assert len(laws) == 7
+    for measured in laws:
+        first = next(iter(measured.scatter_law))
+        higher = replace(
+            measured, scatter_law={**measured.scatter_law, first: measured.scatter_law[first] + 1}
+        )
+        ratio = higher.relative_scatter / measured.relative_scatter
+        assert 0.75 < ratio < 1.1
+
+
+def test_targets_are_those_of_the_scatter_and_never_of_our_errors():
+    """No file carries a tolerance; a set without a known scatter, or of unclear origin, has no target."""
+    for measured in map(load_set, SETS):
+        known = bool(measured.scatter_law or measured.scatter_source) and not measured.indicative
+        assert (measured.target != "") == known
+        assert measured.target.startswith("rms ") == known
