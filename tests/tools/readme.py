@@ -21,7 +21,7 @@ ROTORS = {
     "Bo 105, forward flight": "",
     "PCA-2, forward flight": "pca2",
 }
-"""The page of each measured rotor, by what it is called among the bands; that of the Bo 105 is the page of the Gazelle."""
+"""The page of each measured rotor, by what it is called among the bands; the Bo 105 shares that of the Gazelle."""
 
 
 def measured_quantities() -> dict[tuple[str, str], bool]:
