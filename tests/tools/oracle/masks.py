@@ -2,6 +2,7 @@
 
 import hashlib
 import re
+from calendar import month_name
 from collections.abc import Sequence
 from importlib.metadata import version
 
@@ -13,6 +14,8 @@ MASKED_KEYS = frozenset(
     ("elapsed", "elapsed_ms", "elapsed_s", "seconds", "serial", "created", "date")
 )
 """Names of values that are times or counters of a run."""
+MONTHS = "|".join(month_name[1:])
+"""Names of the months, as a choice."""
 
 _VERSIONED = ("rotor-explorer", "numpy", "scipy", "numba", "viser", "matplotlib")
 """Packages whose version is written into reports and files."""
@@ -24,11 +27,12 @@ _PATTERNS: Sequence[tuple[re.Pattern[str], str]] = (
     (re.compile(rf"\b(in|after|about) {NUMBER}\s?s\b"), rf"\1 {MASK} s"),
     (re.compile(rf"(· |evaluations, ){NUMBER}\s?s\b"), rf"\1{MASK} s"),
     (re.compile(rf"{NUMBER}/(min|s)\b"), rf"{MASK}/\1"),
-    (re.compile(r'(elapsed\w*\\?": )[\d.e+-]+'), rf"\1{MASK}"),
+    (re.compile(r'(elapsed\w*(?:\\?": |=))[\d.e+-]+'), rf"\1{MASK}"),
     # Where a server listens.
     (re.compile(r"127\.0\.0\.1:\d+"), f"127.0.0.1:{MASK}"),
     # A day, and the hour of it.
     (re.compile(r"\b20\d\d-\d\d-\d\d([T ]\d\d:\d\d(:\d\d)?([+-]\d\d:?\d\d|Z)?)?"), MASK),
+    (re.compile(rf"\b\d{{1,2}}\s(?:{MONTHS})\s20\d\d(?:, \d\d:\d\d)?"), MASK),
     # The commit of a checkout, which a plus marks where files differ from it.
     (re.compile(r"\b(commit|git) [0-9a-f]{7,40}\+?"), rf"\1 {MASK}"),
     *(

@@ -98,7 +98,6 @@ def draw_rotor(record: Record, name: str, solution: Any, view: Any) -> None:
             0.6,
             tilt,
         )
-    record.ask(f"{name}/camera riding", f"{picture}.camera_views.riding", solution, 0.75, 1.1)
     for origin in ((0.0, 0.0, 20.0), (3.0, 2.0, 15.0)):
         record.ask(
             f"{name}/pick {origin}",
