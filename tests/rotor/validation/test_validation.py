@@ -296,7 +296,7 @@ def test_points_that_do_not_trim_are_counted_and_a_set_with_one_is_missed(
     ):
         monkeypatch.setattr("rotor.command.validate.compare", lambda *_, lost=lost: answer(lost))
         assert main(["validate", "knight-hefner-4"]) == code
-        printed = capsys.readouterr().out
+        printed = " ".join(capsys.readouterr().out.split())
         assert words in printed
         assert f"for ct 0.004…0.01: {verdict}" in printed
 
