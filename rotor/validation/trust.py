@@ -169,12 +169,22 @@ class SetDescription:
         """A row whose error is a part of something, shown in per cent or points of per cent."""
         return self.row(what, f"{100 * error:+.{digits}f} {unit}", error, allowed, **more)
 
-    def bound(self, what: str, against: str, error: float, below: float, test: str) -> TrustRow:
+    def bound(
+        self, what: str, against: str, error: float, below: float, test: str, note: str = ""
+    ) -> TrustRow:
         """A row whose error is rounding or discretisation: its size matters, not its digits."""
         met, target = abs(error) <= below, f"below {below:.0e}"
         shown = target if met else f"{abs(error):.1e}"
         return self.row(
-            what, shown, abs(error), below, test=test, target=target, met=met, against=against
+            what,
+            shown,
+            abs(error),
+            below,
+            test=test,
+            note=note,
+            target=target,
+            met=met,
+            against=against,
         )
 
     def page(
