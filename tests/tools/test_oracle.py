@@ -10,7 +10,7 @@ from tests.tools.oracle.compare import difference, first_difference
 from tests.tools.oracle.masks import masked
 from tests.tools.oracle.plant import faults_of
 from tests.tools.oracle.record import Record, exact, flattened
-from tests.tools.oracle.run import KINDS, ask
+from tests.tools.oracle.run import KINDS, run_kind
 
 ROOT = Path(__file__).parents[2]
 
@@ -141,7 +141,7 @@ def test_two_runs_of_one_tree_are_equal(kind: str, tmp_path: Path, monkeypatch: 
     texts = list[str]()
     for seed in ("1", "2"):
         monkeypatch.setenv("PYTHONHASHSEED", seed)
-        done, words = ask(ROOT, kind, tmp_path)
+        done, words = run_kind(ROOT, kind, tmp_path)
         assert done, words
         texts.append((tmp_path / f"{kind}.txt").read_text("utf-8"))
     assert texts[0] == texts[1]
