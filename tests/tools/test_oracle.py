@@ -8,7 +8,7 @@ import pytest
 
 from tests.tools.oracle.compare import difference, first_difference
 from tests.tools.oracle.masks import masked
-from tests.tools.oracle.plant import faults_of
+from tests.tools.oracle.plant import KindFailedError, faults_of, plant
 from tests.tools.oracle.record import Record, exact, flattened
 from tests.tools.oracle.run import KINDS, run_kind
 
@@ -132,6 +132,27 @@ def test_faults_are_small_and_drawn_alike():
     other = faults_of(ROOT, ["explorer/text/line.py"], 8, 2)
     assert list(map(str, first)) == list(map(str, again)) != list(map(str, other))
     assert len({one.text for one in first}) == 8
+
+
+class TestPlant:
+    @pytest.fixture
+    def root(self, tmp_path: Path) -> Path:
+        (tmp_path / "sums.py").write_text("total = 1 + 2\n", "utf-8")
+        return tmp_path
+
+    @pytest.mark.parametrize("shows", [True, False])
+    def test_a_fault_that_changes_no_value_is_missed(self, root: Path, shows: bool):
+        def run(checkout: Path, kind: str, out: Path) -> bool:
+            text = (checkout / "sums.py").read_text("utf-8") if shows else "3"
+            (out / f"{kind}.txt").write_text(f"total: {text}", "utf-8")
+            return True
+
+        missed = plant(root, ["sums.py"], 2, 1, ["text"], run)
+        assert len(missed) == (0 if shows else 2)
+
+    def test_a_kind_that_fails_without_a_fault_notices_none(self, root: Path):
+        with pytest.raises(KindFailedError, match="text cannot be run"):
+            plant(root, ["sums.py"], 1, 1, ["text"], lambda *_: False)
 
 
 @pytest.mark.slow

@@ -16,7 +16,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from .compare import difference, read
-from .plant import limit_processor_time, plant
+from .plant import KindFailedError, limit_processor_time, plant
 from .run import KINDS, run_kind
 
 ROOT = Path(__file__).parents[3]
@@ -95,7 +95,11 @@ def _plant(args: argparse.Namespace) -> int:
         done, _ = run_kind(checkout, kind, out, limit_processor_time)
         return done
 
-    missed = plant(ROOT, args.plant, args.count, args.seed, args.only, run)
+    try:
+        missed = plant(ROOT, args.plant, args.count, args.seed, args.only, run)
+    except KindFailedError as error:
+        print(error)
+        return 2
     print(f"{len(missed)} of {args.count} faults are not noticed (seed {args.seed})")
     return 1 if missed else 0
 

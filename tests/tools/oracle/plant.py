@@ -40,6 +40,10 @@ RunKind = Callable[[Path, str, Path], bool]
 """Writes the values that a checkout has of a kind into a folder; False where it cannot be run."""
 
 
+class KindFailedError(Exception):
+    """A kind that cannot be run even without a fault, which can show none."""
+
+
 @dataclass(frozen=True)
 class Fault:
     """One thing that is wrong in a file."""
@@ -71,7 +75,10 @@ def faults_of(root: Path, files: Sequence[str], count: int, seed: int) -> list[F
 def plant(
     root: Path, files: Sequence[str], count: int, seed: int, kinds: Sequence[str], run: RunKind
 ) -> list[Fault]:
-    """Print of each fault which kind notices it, and by which value; returns those that none does."""
+    """Print of each fault which kind notices it, and by which value; returns those that none does.
+
+    `KindFailedError` where a kind cannot be run in the tree as it is.
+    """
     missed = list[Fault]()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -83,7 +90,10 @@ def plant(
             noticed = ""
             for kind in _order(fault.file, kinds):
                 if kind not in known:
-                    known[kind] = _values(checkout, kind, folder, run) or {}
+                    values = _values(checkout, kind, folder, run)
+                    if values is None:
+                        raise KindFailedError(f"{kind} cannot be run without a fault")
+                    known[kind] = values
                 noticed = _noticed(checkout, fault, kind, folder, known[kind], run)
                 if noticed:
                     break
