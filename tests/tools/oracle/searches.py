@@ -42,7 +42,8 @@ def write(record: Record) -> None:
     """Searches with their words, then maps, schedules, fronts and the best linear twist."""
     for name, (request_fields, arguments) in REQUESTS.items():
         record.scenario(name, search, name, request_fields, arguments)
-    record.scenario("maps", draw_map)
+    for name in ("two-segment", "quadratic", "two-segment-free"):
+        record.scenario(f"map of {name}", draw_map, name)
     record.scenario("schedule", search_schedule)
     record.scenario("front", search_front)
     for name, arguments in {
@@ -124,44 +125,45 @@ def describe_search(record: Record, name: str, work: Any) -> None:
             record.ask(f"{name}/{title}/frame {frame}", f"{words}.frame_line", run, frame, units)
 
 
-def draw_map(record: Record) -> None:
-    """Power over two parameters of a concept."""
+def draw_map(record: Record, name: str) -> None:
+    """Keep power over two parameters of a concept, as a worker process reports it, and its drawing."""
     design = named("rotor.make_design")(mu=0.3, twist="linear:-12", **QUICK)
+    concept = named("rotor.optimisation.concepts.CONCEPTS")[name]
     maps = "explorer.charts.power_map"
-    for name in ("two-segment", "quadratic", "two-segment-free"):
-        concept = named("rotor.optimisation.concepts.CONCEPTS")[name]
-        axes = record.ask(f"map of {name}/axes", f"{maps}.default_axes", concept)
-        objective = named("rotor.optimisation.at_condition")(design)
-        start = record.ask(
-            f"map of {name}/start", "rotor.optimisation.concept.nearest", concept, design.twist
-        )
-        task = record.make(
-            f"map of {name}/task",
-            "explorer.workers.solver.MapTask",
-            design,
-            concept,
-            objective,
-            axes,
-            start,
-        )
-        levels = list[Any]()
-        # A second level is enough: the page refines as long as it has time.
-        record.ask(
-            f"map of {name}/run", task.run, levels.append, lambda levels=levels: len(levels) > 3
-        )
-        record.keep(f"map of {name}/levels", levels)
-        known = [one for one in levels if hasattr(one, "powers")]
-        if not known:
-            continue
-        drawn = record.make(
-            f"map of {name}/drawn", f"{maps}.PowerMap", task, named("numpy.array")(known[-1].powers, dtype=float),
-            known[-1].values, known[-1].least,
-        )  # fmt: skip
-        record.ask(f"map of {name}/drawing", f"{maps}.drawing", drawn, design.twist)
-        record.ask(f"map of {name}/place", f"{maps}.place_on", drawn, design.twist)
-        record.ask(f"map of {name}/at", lambda drawn=drawn: str(drawn.at(0.3, 0.7)))
-        for title, units in units_by_title().items():
-            record.ask(f"map of {name}/{title}/least", f"{maps}.least_words", drawn, units)
+    place = f"map of {name}"
+    axes = record.ask(f"{place}/axes", f"{maps}.default_axes", concept)
+    objective = named("rotor.optimisation.at_condition")(design)
+    start = record.ask(
+        f"{place}/start", "rotor.optimisation.concept.nearest", concept, design.twist
+    )
+    task = record.make(
+        f"{place}/task",
+        "explorer.workers.solver.MapTask",
+        design,
+        concept,
+        objective,
+        axes,
+        start,
+    )
+    reports = list[Any]()
+    # The coarse grid is enough: the finer ones are computed alike.
+    record.ask(f"{place}/run", task.run, reports.append, lambda: bool(map_levels(reports)))
+    record.keep(f"{place}/reports", reports)
+    coarse = map_levels(reports)[0]
+    powers = named("numpy.array")(coarse.powers, dtype=float)
+    power_map = record.make(
+        f"{place}/drawn", f"{maps}.PowerMap", task, powers, coarse.values, coarse.least
+    )
+    record.ask(f"{place}/drawing", f"{maps}.drawing", power_map, design.twist)
+    record.ask(f"{place}/place", f"{maps}.place_on", power_map, design.twist)
+    record.ask(f"{place}/at", lambda: str(power_map.at(0.3, 0.7)))
+    for title, units in units_by_title().items():
+        record.ask(f"{place}/{title}/least", f"{maps}.least_words", power_map, units)
+
+
+def map_levels(reports: Sequence[Any]) -> list[Any]:
+    """The grids among what a task reports; the other reports are how much of it is done."""
+    return [report for report in reports if hasattr(report, "powers")]
 
 
 def search_schedule(record: Record) -> None:
