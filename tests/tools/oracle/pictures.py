@@ -166,14 +166,11 @@ def draw_lines(record: Record, name: str, solution: Any, before: Any) -> None:
     measured = record.make(f"{name}/measured", f"{charts}.measured.MeasuredChart")
     flown = record.make(f"{name}/flights", f"{charts}.measured.FlownPowers")
     record.ask(f"{name}/source", f"{charts}.measured.source_of", solution.design)
+    points = record.ask(f"{name}/points", measured.chart, solution)
+    keep_chart(record, f"{name}/points", points)
+    band = record.make(f"{name}/doubt", "rotor.doubt", solution, before)
     for title, units in units_by_title().items():
-        keep_chart(
-            record,
-            f"{name}/{title}/measured",
-            record.ask(f"{name}/{title}/points", measured.chart, solution),
-        )
         record.ask(f"{name}/{title}/marks", flown.marks, solution, units)
-        band = record.make(f"{name}/{title}/doubt", "rotor.doubt", solution, before)
         record.ask(f"{name}/{title}/doubt rows", f"{charts}.doubt.doubt_rows", band, units)
 
 
