@@ -84,7 +84,8 @@ def search(
     )
     reports = list[Any]()
     optimum = record.ask(f"{name}/optimum", task.run, reports.append, lambda: False)
-    record.keep(f"{name}/reports", {number: str(one)[:400] for number, one in enumerate(reports)})
+    # In a list, each report has one line.
+    record.keep(f"{name}/reports", {number: [one] for number, one in enumerate(reports)})
     for state, work in search_states(record, name, task, reports, optimum).items():
         describe_search(record, f"{name}/{state}", work)
 

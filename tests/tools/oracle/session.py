@@ -100,7 +100,7 @@ LINKS: Mapping[str, str] = {
     "a view": "?d=1;linear:-8;inflow=drees&v=1;field=mach-number",
 }
 """Addresses with which a page is opened."""
-DROPPED = frozenset(("order", "uuid", "container_uuid", "container_id", "id"))
+DROPPED = frozenset(("order", "uuid", "container_uuid", "container_id", "id", "_tab_container_ids"))
 """Properties of widgets that are drawn by chance, or are times."""
 COUNTERS = frozenset(("idle", "beat"))
 """Parts of the frame that count presses."""
