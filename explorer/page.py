@@ -183,7 +183,7 @@ class Page:
             self.lecture = lecture = LecturePanel(context, self.scene.camera, self._views, self.now)
         with layout.drawers["settings"]:
             settings = SettingsPanel(context)
-        self.follower = PanelUpdater(
+        self.panel_updater = PanelUpdater(
             PANELS,
             context.bridge,
             context.keyboard.bind,
@@ -199,10 +199,10 @@ class Page:
     def _listen(self, opening: Inputs, address: Address) -> None:
         """Presses that no part of the page has for itself."""
         context, bridge, camera = self.context, self.context.bridge, self.scene.camera
-        context.resting.append(self.follower.rest)
-        context.waiting.append(self.follower.is_waiting)
-        context.leaving += [self.follower.stop, context.work.stop, bridge.stop]
-        context.layout.watchers.append(partial(self.follower.follow, AT_ONCE.__contains__))
+        context.resting.append(self.panel_updater.rest)
+        context.waiting.append(self.panel_updater.is_waiting)
+        context.leaving += [self.panel_updater.stop, context.work.stop, bridge.stop]
+        context.layout.watchers.append(partial(self.panel_updater.follow, AT_ONCE.__contains__))
         self.scene.on_press(lambda metres: self._curve.grab(metres / camera.radius))
         context.keyboard.bind("reset", partial(self._reset, opening))
         bridge.on("slide", self._slide)
@@ -235,7 +235,7 @@ class Page:
         """The session begins: widgets as they will be, also where the first solution takes long."""
         self.latest = replace(self.latest, inputs=self.context.inputs())
         self._refresh()
-        self.follower.follow(AT_ONCE.__contains__)
+        self.panel_updater.follow(AT_ONCE.__contains__)
 
     def stop(self) -> None:
         """The browser has left: end threads and jobs."""
@@ -256,7 +256,9 @@ class Page:
     def counted_from(self, now: PageState) -> Design | None:
         """The blade that changes count from where the design carries an actuator; None: as usual."""
         return counted_from(
-            replace(now, ui=OpenPanels(self.context.layout.mode), answers=self.follower.answers())
+            replace(
+                now, ui=OpenPanels(self.context.layout.mode), answers=self.panel_updater.answers()
+            )
         )
 
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
@@ -311,8 +313,8 @@ class Page:
             change=context.tracker.change,
             game=self.optimise.hand.standing,
             searching=self.optimise.notice(self.latest.sliders),
-            memory=self.follower.memory,
-            answers=self.follower.answers(),
+            memory=self.panel_updater.memory,
+            answers=self.panel_updater.answers(),
         )
 
     def _pressed(self) -> PageState:
@@ -333,7 +335,7 @@ class Page:
             self.latest.state,
             now,
             self.context,
-            self.follower.follow,
+            self.panel_updater.follow,
         )
         state = now.state
         if state is None:
@@ -346,7 +348,7 @@ class Page:
                 context.analyses.forget_others(
                     state.solution, state.reference, *self.optimise.hand.solutions
                 )
-                self.follower.memory = self.follower.memory.then(state, last)
+                self.panel_updater.memory = self.panel_updater.memory.then(state, last)
                 self.file.follow(state)
             case "number":
                 self._learn()
@@ -375,16 +377,16 @@ class Page:
 
     def work(self) -> Iterator[None]:
         """Steps of what a page at rest has computed: slopes of power and how sure it is."""
-        yield from self.follower.work(soon=True)
+        yield from self.panel_updater.work(soon=True)
         self.lecture.refresh()
         if self._curve.held is not None:
             self._learn()
-            self.follower.follow((HAND,).__contains__)
+            self.panel_updater.follow((HAND,).__contains__)
 
     def work_later(self) -> Iterator[None]:
         """Steps of what may come after the sweep of power over µ."""
         yield from self.history.solve_waiting()
-        yield from self.follower.work(soon=False)
+        yield from self.panel_updater.work(soon=False)
         self.lecture.refresh()
 
     def _learn(self) -> None:
@@ -397,7 +399,7 @@ class Page:
         """Inputs without a solution: the picture, of the last converged one, stays, grey, beneath the sentence."""
         self.latest = now
         self._refresh()
-        self.follower.follow()
+        self.panel_updater.follow()
         for show in self.context.following:
             show(None)
         self.scene.fade(
@@ -427,7 +429,7 @@ class Page:
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
         self.latest = replace(self.latest, problem=brief(sentence))
-        self.follower.follow()
+        self.panel_updater.follow()
 
     def _refresh(self) -> None:
         """What follows the widgets themselves: visible sliders, units, dark page, and the tabs of long work."""

@@ -47,7 +47,7 @@ Keys = Literal[
 WidgetValue = bool | Number | Text | Annotated[list[Number], Meta(max_length=1000)] | None
 
 
-class _Sent(Struct, tag_field="type", tag=True, forbid_unknown_fields=True):
+class _ViserMessage(Struct, tag_field="type", tag=True, forbid_unknown_fields=True):
     """A message of viser's client. Classes and fields have viser's names."""
 
     def fault(self) -> str:
@@ -55,7 +55,7 @@ class _Sent(Struct, tag_field="type", tag=True, forbid_unknown_fields=True):
         return ""
 
 
-class ViewerCameraMessage(_Sent):
+class ViewerCameraMessage(_ViserMessage):
     wxyz: Turn
     position: Point
     fov: Number
@@ -72,7 +72,7 @@ class ViewerCameraMessage(_Sent):
         return f"a canvas of {self.image_width} × {self.image_height}, expected a ratio of {_LARGEST_ASPECT:g}"
 
 
-class ScenePointerMessage(_Sent):
+class ScenePointerMessage(_ViserMessage):
     event_type: Literal["click"]
     """No part of the page selects rectangles."""
     ray_origin: Point
@@ -89,7 +89,7 @@ class ScenePointerMessage(_Sent):
         )
 
 
-class SceneNodeDragMessage(_Sent):
+class SceneNodeDragMessage(_ViserMessage):
     phase: Literal["start", "update", "end"]
     name: Name
     instance_index: Count | None
@@ -106,16 +106,16 @@ class Updates(Struct, forbid_unknown_fields=True):
     value: WidgetValue
 
 
-class GuiUpdateMessage(_Sent):
+class GuiUpdateMessage(_ViserMessage):
     uuid: Name
     updates: Updates
 
 
-class CommandTriggerMessage(_Sent):
+class CommandTriggerMessage(_ViserMessage):
     uuid: Name
 
 
-class FileTransferStartUpload(_Sent):
+class FileTransferStartUpload(_ViserMessage):
     source_component_uuid: Name
     transfer_uuid: Name
     filename: Text
@@ -128,19 +128,19 @@ class FileTransferStartUpload(_Sent):
         return "" if fits else f"{self.size_bytes} bytes in {self.part_count} parts"
 
 
-class FileTransferPart(_Sent):
+class FileTransferPart(_ViserMessage):
     source_component_uuid: Name | None
     transfer_uuid: Name
     part_index: Count
     content: memoryview
 
 
-class GetRenderResponseMessage(_Sent):
+class GetRenderResponseMessage(_ViserMessage):
     payload: memoryview
     render_uuid: Name
 
 
-class LocalStorageGetItemResponseMessage(_Sent):
+class LocalStorageGetItemResponseMessage(_ViserMessage):
     value: str | None
     error: Text | None
     request_uuid: Name

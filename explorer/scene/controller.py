@@ -159,8 +159,8 @@ ShowRange = Callable[[Field, Range, bool, tuple[bool, bool]], None]
 
 
 @dataclass(frozen=True)
-class _Drawn:
-    """What decides a frame."""
+class _PictureInputs:
+    """All that one picture of the scene depends on."""
 
     solution: Solution
     pinned: Solution | None
@@ -171,7 +171,7 @@ class _Drawn:
     look: View
     """The camera's: labels on the disk face it."""
 
-    def at(self, azimuth_deg: float) -> "_Drawn":
+    def at(self, azimuth_deg: float) -> "_PictureInputs":
         """This picture with the reference blade elsewhere."""
         return replace(self, view=replace(self.view, azimuth_deg=azimuth_deg))
 
@@ -199,7 +199,7 @@ class SceneController:
         self.drawn = True
         """Whether the browser draws what it is sent."""
         self._look: View = "3d"
-        self._drawn: _Drawn | None = None
+        self._drawn: _PictureInputs | None = None
         self._compared = False
         """Whether A is at the place of B."""
         self._rested = False
@@ -233,7 +233,7 @@ class SceneController:
             overlay = OtherBlade(as_built.rotor, as_built.twist, None)
         field = shown_field(view, pinned)
         colour_range = self._range(solution, field)
-        wanted = _Drawn(solution, pinned, view, colour_range, overlay, self._look)
+        wanted = _PictureInputs(solution, pinned, view, colour_range, overlay, self._look)
         if self._drawn == wanted:
             return
         if self._drawn is not None and self._drawn.at(view.azimuth_deg) == wanted:

@@ -162,7 +162,7 @@ def facts_at(number: int) -> StepFacts:
 
 
 def _trim(step: LectureStep) -> StepFacts:
-    flight = _Sweep(step)
+    flight = _ControlSweep(step)
     powers = [solution.power for solution in flight.b]
     values = step.control.values
     hover, cruise, low = (
@@ -193,7 +193,7 @@ def _trim(step: LectureStep) -> StepFacts:
 
 
 def _hover_twist(step: LectureStep) -> StepFacts:
-    blades = _Sweep(step)
+    blades = _ControlSweep(step)
     a, b = blades.pair
     rigid = tuple(name for name in _BUILT if name != "elastic")
     elastic = b.disk.elastic_twist
@@ -219,7 +219,7 @@ def _hover_twist(step: LectureStep) -> StepFacts:
 
 def _changes(step: LectureStep) -> StepFacts:
     """Changes of induced and profile power from A to B, over twist: with linear inflow, and with a wake."""
-    blades = _Sweep(step)
+    blades = _ControlSweep(step)
     a, b = blades.pair
     powers = [(here.power, there.power) for here, there in zip(blades.b, blades.a, strict=True)]
     induced = tuple(here.induced - there.induced for here, there in powers)
@@ -236,7 +236,7 @@ def _changes(step: LectureStep) -> StepFacts:
 
 
 def _fast_twist(step: LectureStep) -> StepFacts:
-    blades = _Sweep(step)
+    blades = _ControlSweep(step)
     (a, b), without = blades.pair, (blades.a[1], blades.b[1])
     rates, own = (
         tuple(float(rate) for rate in range(0, -21, -2)),
@@ -284,7 +284,7 @@ def _fast_twist(step: LectureStep) -> StepFacts:
 
 
 def _reverse_flow(step: LectureStep) -> StepFacts:
-    flight = _Sweep(step)
+    flight = _ControlSweep(step)
     a, b = flight.pair
     costs = tuple(
         solution.power.total - other.power.total
@@ -306,7 +306,7 @@ def _reverse_flow(step: LectureStep) -> StepFacts:
 
 
 def _two_segments(step: LectureStep) -> StepFacts:
-    blades = _Sweep(step)
+    blades = _ControlSweep(step)
     a, b = blades.pair
     changes = tuple(solution.power.total / a.power.total - 1.0 for solution in blades.b)
     most = (1.0 + _FLAT_SHARE) * min(solution.power.total for solution in blades.b)
@@ -424,7 +424,7 @@ def _rounded(wave: Harmonic) -> Harmonic:
 
 def _piezoelectric_ply(step: LectureStep) -> StepFacts:
     """By schedule at each speed: what twist alone changes, and what the aircraft needs with all of the actuator."""
-    flight, verdict = _Sweep(step), try_actuator(ACTUATOR, make_design())
+    flight, verdict = _ControlSweep(step), try_actuator(ACTUATOR, make_design())
     installed = verdict.installed
     flown = fly(verdict, [FlightLeg(speed_words(mu), mu) for mu in SPEEDS])
     set_to = [
@@ -498,7 +498,7 @@ _FINDERS: dict[str, Callable[[LectureStep], StepFacts]] = {
 """By name of the step."""
 
 
-class _Sweep:
+class _ControlSweep:
     """The designs along the control of a step, trimmed: B, and A beside each."""
 
     def __init__(self, step: LectureStep) -> None:

@@ -127,7 +127,8 @@ def best_swings(
 ) -> TwistOptimum:
     """Least power at one condition of a blade with fixed built-in twist; bounds of swings (segments, 2); a trim
     nearby. RuntimeError where it does not trim."""
-    reached = _Task(((design,), (1.0,), (near,)), None, (installed, 1.0), bounds, {}).descend(())
+    flights = ((design,), (1.0,), (near,))
+    reached = _MeanPowerMinimiser(flights, None, (installed, 1.0), bounds, {}).descend(())
     if reached is None:
         raise RuntimeError(
             "The rotor does not trim at this flight condition: reduce the mass or the advance ratio."
@@ -158,8 +159,8 @@ def _search(
     if installed is not None and installed.host.kind == "retrofit":
         low, high = installed.actuator.retrofit_swings
         either = ((low, high), (-high, -low)) if driven else (_AT_REST,)  # Direction of fibres.
-        tasks = [
-            _Task(flights, None, fitted, [ends] * 2 * len(installed.shapes), known)
+        minimisers = [
+            _MeanPowerMinimiser(flights, None, fitted, [ends] * 2 * len(installed.shapes), known)
             for ends in either
         ]
         jigs: list[Sequence[float]] = [()]
@@ -167,7 +168,8 @@ def _search(
         # From the first condition: only differences matter.
         segments = len(installed.shapes) if installed else 0
         bounds = [_AT_REST] * segments + [(-1.0, 1.0) if driven else _AT_REST] * segments
-        tasks, jigs = [_Task(flights, concept, fitted, bounds, known)], list(starts)
+        minimisers = [_MeanPowerMinimiser(flights, concept, fitted, bounds, known)]
+        jigs = list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, flights[0][0].twist)
             flatter = tuple(
@@ -176,7 +178,10 @@ def _search(
             )
             jigs += [first, flatter]
     optima = [
-        reached for task in tasks for jig in jigs if (reached := task.descend(jig)) is not None
+        reached
+        for minimiser in minimisers
+        for jig in jigs
+        if (reached := minimiser.descend(jig)) is not None
     ]
     if not optima:
         raise RuntimeError(
@@ -185,8 +190,8 @@ def _search(
     return min(optima, key=lambda reached: reached.power)
 
 
-class _Task:
-    """One descent; each trim starts from the previous one."""
+class _MeanPowerMinimiser:
+    """Finds the least mean power of some conditions within bounds; each trim starts from the previous one."""
 
     def __init__(
         self,

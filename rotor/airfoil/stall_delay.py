@@ -33,17 +33,20 @@ from rotor.airfoil.section_table import (
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
 
-_FACTOR = 3.0
-_MOST = 0.9
-_ATTACHED = np.deg2rad(2.0)
+_SNEL_FACTOR = 3.0
+_LARGEST_GAIN = 0.9
+_ATTACHED_SPAN = np.deg2rad(2.0)
 """Angle from zero lift within which nothing is added: the span of `SectionTable.lift_slope`."""
-_WHOLE, _GONE = np.deg2rad(30.0), np.deg2rad(60.0)
-"""Angles from zero lift up to which all, and from which nothing, is added."""
+_FADE_START = np.deg2rad(30.0)
+"""Angle from zero lift up to which all of the missing lift is added."""
+_FADE_END = np.deg2rad(60.0)
+"""Angle from zero lift from which on nothing is added."""
 
 
 def delay_gain(chord_over_radius: ArrayLike) -> Array:
     """The part g of the missing lift that a blade element keeps; chord_over_radius: c/r with its own radius r."""
-    return np.minimum(_FACTOR * np.square(np.asarray(chord_over_radius, dtype=np.float64)), _MOST)
+    ratio = np.asarray(chord_over_radius, dtype=np.float64)
+    return np.minimum(_SNEL_FACTOR * np.square(ratio), _LARGEST_GAIN)
 
 
 @bytes_cache
@@ -61,7 +64,7 @@ def fully_delayed(table: SectionTable) -> SectionTable:
     x = alpha - table.zero_lift_alpha(mach)
     missing = table.lift_slope(mach) * np.sin(x) - table(alpha, mach).cl
     larger = np.where(x > 0.0, np.maximum(missing, 0.0), np.minimum(missing, 0.0))
-    added = np.where(np.abs(x) > _ATTACHED, larger * _share(x), 0.0)
+    added = np.where(np.abs(x) > _ATTACHED_SPAN, larger * _added_share(x), 0.0)
     coefficients = table.coefficients.copy()
     coefficients[:, :, 0] += bicubic_coefficients(C81Block(mach, degrees, added))
     return replace(table, coefficients=coefficients)
@@ -84,12 +87,13 @@ def delayed_stall(table: SectionTable, gain: Array) -> Array:
     if not gain.any() or (table.alpha_stall_positive == np.pi).all():
         return np.broadcast_to(table.stall_alpha(mach), (len(gain), 2, len(mach))).copy()
     zero = table.zero_lift_alpha(mach)
+    # The search takes one curve a row: all Mach nodes of the first gain, then those of the next.
     attached = np.tile(table.lift_slope(mach), len(gain))
     ends: list[Array] = []
     for side, (own, added) in zip((-1.0, 1.0), _slopes_outward(table), strict=True):
-        slope = own + gain[:, None, None] * added
-        outward = first_quarter_slope(slope.reshape(-1, len(SEARCH_OUTWARD)), attached)
-        ends.append(zero + side * outward.reshape(len(gain), len(mach)))
+        slopes = own + gain[:, None, None] * added
+        distance = first_quarter_slope(slopes.reshape(-1, len(SEARCH_OUTWARD)), attached)
+        ends.append(zero + side * distance.reshape(len(gain), len(mach)))
     return np.stack(ends, axis=1)
 
 
@@ -107,7 +111,7 @@ def _slopes_outward(table: SectionTable) -> Array:
     return np.stack(slopes)
 
 
-def _share(x: Array) -> Array:
-    """How much of the missing lift is added at x from zero lift: 1 up to 30°, 0 from 60° on, smooth between."""
-    t = np.clip((_GONE - np.abs(x)) / (_GONE - _WHOLE), 0.0, 1.0)
+def _added_share(x: Array) -> Array:
+    """The part of the missing lift that is added at x from zero lift: 1 up to 30°, 0 from 60° on, smooth between."""
+    t = np.clip((_FADE_END - np.abs(x)) / (_FADE_END - _FADE_START), 0.0, 1.0)
     return t * t * (3.0 - 2.0 * t)

@@ -227,12 +227,12 @@ def run(args: argparse.Namespace) -> int:
 
 def _run(args: argparse.Namespace, store: StudyFolder) -> int:
     study = store.study
-    missing = store.missing(_Progress.say)
+    missing = store.missing(_ProgressDisplay.say)
     done = study.count - study.points_of(missing)
     print(f"{study.title}: {study.count:,} points, {done:,} done → {store.folder}", flush=True)
     message, ended = "", ChunkRun()
     if missing:
-        with interruptible() as stop, closing(_Progress(study.count, done)) as progress:
+        with interruptible() as stop, closing(_ProgressDisplay(study.count, done)) as progress:
             try:
                 with _executor(args, study) as executor:
                     ended = run_chunks(executor, store, missing, progress.add, stop, progress.say)
@@ -261,7 +261,7 @@ def _executor(args: argparse.Namespace, study: Study) -> Generator[Executor]:
         yield client.get_executor()
 
 
-class _Progress:
+class _ProgressDisplay:
     """A run so far: a bar on a terminal, else a line per minute with rate, time left and failures."""
 
     def __init__(self, total: int, done: int) -> None:

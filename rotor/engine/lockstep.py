@@ -27,8 +27,8 @@ from rotor.support.arrays import Array, Booleans, Integers
 
 
 @dataclass(frozen=True, eq=False)
-class _Points:
-    """`Point` of some designs, the designs along the first axis, or of fields along the second."""
+class _PointBatch:
+    """The `Point`s of several designs in shared arrays: designs along the first axis, in fields along the second."""
 
     systems: Sequence[System]
     x: Array
@@ -79,7 +79,7 @@ class _SideBySide:
     def __init__(self, systems: Sequence[System], data: Callable[[int], Any]) -> None:
         self.systems, self._data_of, self._data = systems, data, dict[int, Any]()
 
-    def __call__(self, which: Integers, x: Array, *, full: bool) -> _Points:
+    def __call__(self, which: Integers, x: Array, *, full: bool) -> _PointBatch:
         """The equations of some of the designs; with slopes and flow where asked for."""
         systems: list[System] = [self.systems[k] for k in which.tolist()]
         one, count, nodes = systems[0], len(systems), systems[0].nodes
@@ -123,7 +123,7 @@ class _SideBySide:
         size: Array = (np.abs(residual) / one.tolerance).max(axis=1)
         size = np.where(np.isfinite(size), size, math.inf)
         by_roots = [slope for _, slope, _ in made]
-        return _Points(
+        return _PointBatch(
             systems, x, z, by_roots, phi, channels, forces, slopes, flow, q, residual, size
         )
 
@@ -148,7 +148,7 @@ def _residual(s: Structure, z: Array, q: Array) -> Array:
 class _Unfinished:
     """The designs that go on, and the corrections of the factors by the steps of each, as in `newton`."""
 
-    def __init__(self, x: Array, points: _Points, factors: Factors) -> None:
+    def __init__(self, x: Array, points: _PointBatch, factors: Factors) -> None:
         self.which: Integers = np.arange(len(x))
         self.x, self.residual, self.size = x, points.residual, points.size
         self.slow: Array = np.zeros(len(x))

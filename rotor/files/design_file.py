@@ -49,7 +49,7 @@ _FIELDS = [
 _Record = msgspec.defstruct("_Record", _FIELDS, bases=(FileTable,))
 
 
-class _Carried(FileTable, frozen=True, kw_only=True):
+class _ActuatorRecord(FileTable, frozen=True, kw_only=True):
     """An actuator in a file, as `Carried`."""
 
     name: Annotated[str, msgspec.Meta(max_length=80)]
@@ -127,7 +127,7 @@ def design_from_record(record: dict[str, Any], *, paths: bool = False) -> Design
 
 def _with_carried(design: Design, record: Any) -> Design:
     """The design with the actuator of a record, whose mass on board is in the design's own."""
-    carried = convert(record, _Carried, "actuator")
+    carried = convert(record, _ActuatorRecord, "actuator")
     inner, outer = carried.span_m
     if (
         not 0.0 < inner < outer <= 1.001 * design.rotor.radius

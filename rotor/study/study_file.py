@@ -78,7 +78,9 @@ class _Sample(FileTable, frozen=True, kw_only=True):
     seed: _Seed = 0
 
 
-class _Optimum(FileTable, frozen=True, kw_only=True):
+class _OptimumTable(FileTable, frozen=True, kw_only=True):
+    """The table [optimum]: angles in degrees, shares in per cent."""
+
     starts: Annotated[int, Meta(ge=1, le=1000)] = OptimumSettings.starts
     seed: _Seed = OptimumSettings.seed
     objective: Objective = OptimumSettings.objective
@@ -115,7 +117,7 @@ class _Top(FileTable, frozen=True, kw_only=True):
     title: Text | None = None
     chunk: Annotated[int, Meta(ge=1, le=10**6)] | None = None
     sample: _Sample | None = None
-    optimum: _Optimum | None = None
+    optimum: _OptimumTable | None = None
     show: _Show = _Show()
 
 

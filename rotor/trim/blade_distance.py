@@ -20,7 +20,7 @@ _RINGS = 40
 
 def blade_distance(one: Design, other: Design) -> float:
     """Distance of two blades: 0 for equal ones, 1 where planform or sections differ, in between by twist."""
-    if not _same_planform(one, other):
+    if not _equal_but_for_twist(one, other):
         return 1.0
     return min(float(np.linalg.norm(twist_difference(one, other))), 1.0)
 
@@ -49,8 +49,8 @@ def _radii(one: Design, other: Design) -> Array:
     return 0.5 * (edges[1:] + edges[:-1])
 
 
-def _same_planform(one: Design, other: Design) -> bool:
-    """Whether number, radius, chord and sections of the blades are equal."""
+def _equal_but_for_twist(one: Design, other: Design) -> bool:
+    """Whether number, radius, root cut-out, chord and sections of the blades are equal."""
     first = one.rotor
     second = other.rotor
     if first.blades != second.blades or first.radius != second.radius:

@@ -27,8 +27,8 @@ IN_BAND = {
     "section": "section_lift_percent",
 }
 """Uncertain input of `assets/doubt.toml` that holds an input of a rotor file."""
-_TABLES = {"tail_rotor": "tail_rotor_percent"}
-"""Uncertain input that holds all inputs of a table."""
+_TABLES_IN_BAND = {"tail_rotor": "tail_rotor_percent"}
+"""Uncertain input of `assets/doubt.toml` that holds all inputs of a table."""
 _WORDS = {
     "root_cutout_r": "root cut-out",
     "chord_m": "chord",
@@ -45,7 +45,7 @@ _WORDS = {
     "lag_damper_nm_s_rad": "lag damper",
     "pitch_horn_m": "pitch horn",
 }
-_READ = ("main_rotor", "tail_rotor", "airframe", "blade")
+_FLOWN_TABLES = ("main_rotor", "tail_rotor", "airframe", "blade")
 """Tables of rotor and structure files with inputs of the flying aircraft; `document` is the blade of the thesis."""
 
 
@@ -68,9 +68,9 @@ class AssumedInput:
         return f"{name} ({UNSOURCED[self.grade]})"
 
     @property
-    def uncertain(self) -> str | None:
-        """Uncertain input of the band that holds it; None where none does."""
-        return _TABLES.get(self.table) or IN_BAND.get(self.key)
+    def uncertain_input(self) -> str | None:
+        """Name of the uncertain input that holds it in the band of power; None where none does."""
+        return _TABLES_IN_BAND.get(self.table) or IN_BAND.get(self.key)
 
 
 def assumed_inputs(aircraft: str) -> tuple[AssumedInput, ...]:
@@ -94,21 +94,26 @@ def assumed_table() -> str:
     ]
     for name, title in AIRCRAFT.items():
         inputs = assumed_inputs(name)
-        inside = [each.words for each in inputs if each.uncertain]
-        outside = [each.words for each in inputs if not each.uncertain]
+        inside = [each.words for each in inputs if each.uncertain_input]
+        outside = [each.words for each in inputs if not each.uncertain_input]
         rows.append((title, _drag_area(name), ", ".join(inside), ", ".join(outside)))
     head, *lines = (f"| {' | '.join(row)} |" for row in rows)
     return "\n".join((head, "|---|---|---|---|", *lines))
 
 
 def _unsourced(file: str) -> Iterator[AssumedInput]:
+    """The inputs without a source in a rotor or structure file, from lines `key = value  # A  why`."""
     table = ""
     for line in asset_path(file).read_text(encoding="utf-8").splitlines():
-        if heading := re.match(r"\[([\w.]+)\]", line):
+        heading = re.match(r"\[([\w.]+)\]", line)
+        if heading:
             table = heading[1]
-        entry = re.match(r"(\w+) = .*?# ([A-Z])\b", line)
-        if entry and table in _READ and entry[2] in UNSOURCED:
-            yield AssumedInput(table, entry[1], entry[2])
+        graded = re.match(r"(\w+) = .*?# ([A-Z])\b", line)
+        if graded is None or table not in _FLOWN_TABLES:
+            continue
+        key, grade = graded.groups()
+        if grade in UNSOURCED:
+            yield AssumedInput(table, key, grade)
 
 
 def _drag_area(name: str) -> str:

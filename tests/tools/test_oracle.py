@@ -9,9 +9,9 @@ import pytest
 
 from tests.tools.oracle.compare import difference, first_difference, read
 from tests.tools.oracle.masks import masked
-from tests.tools.oracle.plant import faults_of
+from tests.tools.oracle.plant import KindFailedError, faults_of, plant
 from tests.tools.oracle.record import Record, exact, flattened
-from tests.tools.oracle.run import KINDS, ask
+from tests.tools.oracle.run import KINDS, run_kind
 
 ROOT = Path(__file__).parents[2]
 QUICK = ("physics", "text")
@@ -25,6 +25,9 @@ class TestMasks:
             ("24 × 24 grid, 38 ms.", "24 × 24 grid, 1.2 s."),
             ("22 evaluations, 1.3 s", "22 evaluations, 0.87 s"),
             ('{\\"elapsed_ms\\": 26.78, \\"a\\": 1}', '{\\"elapsed_ms\\": 3.1e-5, \\"a\\": 1}'),
+            ("Progress(elapsed=0.045, start=1)", "Progress(elapsed=1e-05, start=1)"),
+            ("584 kB (2.4 s).", "584 kB (12 s)."),
+            ("30 November 2026, 07:55 · 0.5", "1 May 2024, 23:00 · 0.5"),
             ("12 points in 3 s on 1 worker: 166/min", "12 points in 8 s on 1 worker: 90/min"),
             ("at http://127.0.0.1:8080/", "at http://127.0.0.1:41233/"),
             ("<object at 0x7f12ab34cd56>", "<object at 0x7f99ab34cd00>"),
@@ -145,6 +148,27 @@ def kinds() -> list[Any]:
     return [*QUICK, *(pytest.param(kind, marks=pytest.mark.nightly) for kind in longer)]
 
 
+class TestPlant:
+    @pytest.fixture
+    def root(self, tmp_path: Path) -> Path:
+        (tmp_path / "sums.py").write_text("total = 1 + 2\n", "utf-8")
+        return tmp_path
+
+    @pytest.mark.parametrize("shows", [True, False])
+    def test_a_fault_that_changes_no_value_is_missed(self, root: Path, shows: bool):
+        def run(checkout: Path, kind: str, out: Path) -> bool:
+            text = (checkout / "sums.py").read_text("utf-8") if shows else "3"
+            (out / f"{kind}.txt").write_text(f"total: {text}", "utf-8")
+            return True
+
+        missed = plant(root, ["sums.py"], 2, 1, ["text"], run)
+        assert len(missed) == (0 if shows else 2)
+
+    def test_a_kind_that_fails_without_a_fault_notices_none(self, root: Path):
+        with pytest.raises(KindFailedError, match="text cannot be run"):
+            plant(root, ["sums.py"], 1, 1, ["text"], lambda *_: False)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", kinds())
 def test_two_runs_of_one_tree_are_equal(kind: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch):
@@ -153,7 +177,7 @@ def test_two_runs_of_one_tree_are_equal(kind: str, tmp_path: Path, monkeypatch: 
         monkeypatch.setenv("PYTHONHASHSEED", seed)
         out = tmp_path / seed
         out.mkdir()
-        done, words = ask(ROOT, kind, out)
+        done, words = run_kind(ROOT, kind, out)
         assert done, words
     first = read(tmp_path / "1", kind)
     second = read(tmp_path / "2", kind)

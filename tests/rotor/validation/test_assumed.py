@@ -49,9 +49,9 @@ def top_files() -> set[str]:
 def test_what_is_in_the_band_is_an_uncertain_input():
     known = {row.name for row in UNCERTAIN}
     inputs = [each for name in AIRCRAFT for each in assumed_inputs(name)]
-    assert {each.uncertain for each in inputs} - {None} <= known
-    assert AssumedInput("airframe", "hover_download", "A").uncertain == "download_percent"
-    assert AssumedInput("main_rotor", "root_cutout_r", "A").uncertain is None
+    assert {each.uncertain_input for each in inputs} - {None} <= known
+    assert AssumedInput("airframe", "hover_download", "A").uncertain_input == "download_percent"
+    assert AssumedInput("main_rotor", "root_cutout_r", "A").uncertain_input is None
 
 
 def test_the_bo105_has_the_drag_area_of_its_sources_and_a_band_that_reaches_further():

@@ -16,8 +16,8 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from .compare import difference, read
-from .plant import limited, plant
-from .run import KINDS, ask
+from .plant import KindFailedError, limit_processor_time, plant
+from .run import KINDS, run_kind
 
 ROOT = Path(__file__).parents[3]
 
@@ -69,14 +69,15 @@ def _arguments() -> argparse.Namespace:
 def _run(runs: Sequence[tuple[Path, str, Path]], processes: int) -> bool:
     """Whether every kind of every checkout could be run."""
 
-    def one(run: tuple[Path, str, Path]) -> bool:
-        run[2].mkdir(parents=True, exist_ok=True)
-        done, words = ask(*run)
+    def run(checkout: Path, kind: str, out: Path) -> bool:
+        out.mkdir(parents=True, exist_ok=True)
+        done, words = run_kind(checkout, kind, out)
         print(words, flush=True)
         return done
 
     with ThreadPoolExecutor(processes) as pool:
-        return all(list(pool.map(one, runs)))
+        begun = [pool.submit(run, *each) for each in runs]
+    return all(each.result() for each in begun)
 
 
 def _compare(there: Path, here: Path, kinds: Sequence[str]) -> int:
@@ -91,9 +92,14 @@ def _plant(args: argparse.Namespace) -> int:
     """Print which of some faults are noticed."""
 
     def run(checkout: Path, kind: str, out: Path) -> bool:
-        return ask(checkout, kind, out, limited())[0]
+        done, _ = run_kind(checkout, kind, out, limit_processor_time)
+        return done
 
-    missed = plant(ROOT, args.plant, args.count, args.seed, args.only, run)
+    try:
+        missed = plant(ROOT, args.plant, args.count, args.seed, args.only, run)
+    except KindFailedError as error:
+        print(error)
+        return 2
     print(f"{len(missed)} of {args.count} faults are not noticed (seed {args.seed})")
     return 1 if missed else 0
 

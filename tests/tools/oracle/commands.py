@@ -287,7 +287,7 @@ def run(record: Record, program: str, words: str) -> None:
         error = io.StringIO()
         arguments = [word.replace("STUDY", str(study)) for word in shlex.split(one)]
         with contextlib.redirect_stdout(out), contextlib.redirect_stderr(error):
-            record.call(f"{name}/exit code", main, arguments)
+            record.ask(f"{name}/exit code", main, arguments)
         record.keep(f"{name}/stdout", out.getvalue())
         record.keep(f"{name}/stderr", error.getvalue())
     for path in sorted(Path().rglob("*")):

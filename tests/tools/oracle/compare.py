@@ -59,14 +59,18 @@ def difference(kind: str, there: Mapping[str, str], here: Mapping[str, str]) -> 
 
 
 def first_difference(there: str, here: str) -> tuple[str, str]:
-    """Of two texts the part about the first character that differs, a mark before it."""
+    """Excerpts of two texts about the first character that differs, as `- 902.⟦9 kW⟧` and `+ 902.⟦8 kW⟧`.
+
+    The mark ⟦ stands before that character; ⟧ only ends the excerpt.
+    """
     at = 0
     while at < min(len(there), len(here)) and there[at] == here[at]:
         at += 1
-    return _about("-", there, at), _about("+", here, at)
+    return _excerpt("-", there, at), _excerpt("+", here, at)
 
 
-def _about(sign: str, text: str, at: int) -> str:
+def _excerpt(sign: str, text: str, at: int) -> str:
+    """The text up to `ABOUT` characters on each side of a place, with the sign and the mark."""
     begin = max(0, at - ABOUT)
     before = ("…" if begin else "") + text[begin:at]
     after = text[at : at + ABOUT] + ("…" if len(text) > at + ABOUT else "")

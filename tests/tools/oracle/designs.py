@@ -108,13 +108,13 @@ def all_designs() -> dict[str, Mapping[str, Any]]:
     return found | dict(STANDS)
 
 
-def solve_named(record: Record, names: Iterable[str], before: str = "") -> dict[str, Any]:
-    """Solutions of designs by name, with some words before it; what does not trim is a value and left out."""
+def solve_named(record: Record, names: Iterable[str], prefix: str = "") -> dict[str, Any]:
+    """Solutions of designs by name, which `prefix` begins; those that do not trim are left out."""
     found = dict[str, Any]()
     arguments = all_designs()
     for name in names:
-        design = record.make(f"{before}{name}/design", "rotor.make_design", **arguments[name])
-        solution = record.make(f"{before}{name}/solution", "rotor.solve", design)
+        design = record.make(f"{prefix}{name}/design", "rotor.make_design", **arguments[name])
+        solution = record.make(f"{prefix}{name}/solution", "rotor.solve", design)
         if solution is not None and solution.converged:
-            found[before + name] = solution
+            found[prefix + name] = solution
     return found

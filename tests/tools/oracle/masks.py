@@ -14,11 +14,9 @@ MASKED_KEYS = frozenset(
     ("elapsed", "elapsed_ms", "elapsed_s", "seconds", "serial", "created", "date")
 )
 """Names of values that are times or counters of a run."""
-MONTHS = "|".join(month_name[1:])
-"""Names of the months, as a choice."""
-
 _VERSIONED = ("rotor-explorer", "numpy", "scipy", "numba", "viser", "matplotlib")
 """Packages whose version is written into reports and files."""
+_MONTHS = "|".join(month_name[1:])
 _PATTERNS: Sequence[tuple[re.Pattern[str], str]] = (
     # Addresses of objects in memory.
     (re.compile(r"\b0x[0-9a-f]{6,}\b"), f"0x{MASK}"),
@@ -28,11 +26,12 @@ _PATTERNS: Sequence[tuple[re.Pattern[str], str]] = (
     (re.compile(rf"(· |evaluations, ){NUMBER}\s?s\b"), rf"\1{MASK} s"),
     (re.compile(rf"{NUMBER}/(min|s)\b"), rf"{MASK}/\1"),
     (re.compile(r'(elapsed\w*(?:\\?": |=))[\d.e+-]+'), rf"\1{MASK}"),
+    (re.compile(rf"([kM]B \(){NUMBER}\s?s\)"), rf"\1{MASK} s)"),
     # Where a server listens.
     (re.compile(r"127\.0\.0\.1:\d+"), f"127.0.0.1:{MASK}"),
     # A day, and the hour of it.
     (re.compile(r"\b20\d\d-\d\d-\d\d([T ]\d\d:\d\d(:\d\d)?([+-]\d\d:?\d\d|Z)?)?"), MASK),
-    (re.compile(rf"\b\d{{1,2}}\s(?:{MONTHS})\s20\d\d(?:, \d\d:\d\d)?"), MASK),
+    (re.compile(rf"\b\d\d? (?:{_MONTHS}) 20\d\d(?:, \d\d:\d\d)?"), MASK),
     # The commit of a checkout, which a plus marks where files differ from it.
     (re.compile(r"\b(commit|git) [0-9a-f]{7,40}\+?"), rf"\1 {MASK}"),
     *(

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 from .record import Record, named
@@ -86,7 +87,7 @@ TRUSTED = (
 )
 """Of these the drawers are opened, and the disk with the prices of its regions."""
 FORESEEN = ("driven", "new blade", "SMA_tube", "at n/rev")
-"""With these set in Actuate every question is answered."""
+"""With these set in Actuate, its questions that take many trims are answered, too."""
 BANDED = ("opening", "linear inflow", "hover", "climbing", "bo105")
 """Of these the band of power over µ is answered."""
 PRICED = ("opening", "stalled", "hover")
@@ -94,8 +95,10 @@ PRICED = ("opening", "stalled", "hover")
 BAND, DIAL, STROKE = "curve_bands", "dial_answer", "other_stroke"
 WATERFALL, EDGES, SLOPES = "waterfall", "stall-edges", "flight-slopes"
 """Functions of worker processes and the page's own works that take many trims."""
-OWN = ("measured", "flights")
-"""Works whose result is within the page's state."""
+ANSWERED_OF = {BAND: BANDED, WATERFALL: TRUSTED, EDGES: PRICED, SLOPES: TRUSTED}
+"""The designs of Explore of which each of these is answered."""
+FILLS_STATE = ("measured", "flights")
+"""Works that fill caches within the page's state: done anew for every state, for their result only says so."""
 ROUNDS = 6
 """How often answers may lead to further questions."""
 
@@ -107,7 +110,7 @@ class Answers:
         self._known: dict[Any, Any] = {}
 
     def settled(self, now: Any, without: Sequence[str] = ()) -> Any:
-        """The page's state with every answer that its panels ask for, but for these functions and works."""
+        """The page's state with every answer that its panels ask for, but those of functions and works in `without`."""
         panels = [panel for panel in named("explorer.page.PANELS") if panel.seen(now.ui)]
         for _ in range(ROUNDS):
             new = self._new(now, panels, without)
@@ -117,8 +120,7 @@ class Answers:
         return now
 
     def _new(self, now: Any, panels: Sequence[Any], without: Sequence[str]) -> dict[Any, Any]:
-        """Answers to what is asked and not known yet."""
-        at_once = named("explorer.workers.call.at_once")
+        """Answers to what the panels ask in this state and it does not hold yet, by key; `without`: as of `settled`."""
         found: dict[Any, Any] = {}
         for panel in panels:
             for question in panel.asks(now):
@@ -128,15 +130,14 @@ class Answers:
             for work in panel.works(now):
                 if work.key in now.answers or work.key in found or work.name in without:
                     continue
-                if work.name in OWN:
-                    found[work.key] = at_once(work.run(lambda: None))
+                if work.name in FILLS_STATE:
+                    found[work.key] = work_result(work)
                 else:
-                    found[work.key] = self._once(
-                        work.key, lambda work=work: at_once(work.run(lambda: None))
-                    )
+                    found[work.key] = self._once(work.key, partial(work_result, work))
         return found
 
     def _once(self, key: Any, run: Callable[[], Any]) -> Any:
+        """The answer of that key, computed for the first state that asks."""
         if key not in self._known:
             self._known[key] = run()
         return self._known[key]
@@ -176,28 +177,14 @@ def at_harmonics() -> dict[str, Any]:
 
 
 def explore(record: Record, name: str, inputs: Any, answers: Answers) -> None:
-    """The page in Explore, with the drawer of power and trim, and of some designs with that of trust."""
+    """Keep the page in Explore; of `TRUSTED` designs with the drawer of power and trim, then with that of trust."""
     now = state_of(record, name, inputs)
-    without = tuple(
-        costly
-        for costly, names in (
-            (BAND, BANDED),
-            (WATERFALL, TRUSTED),
-            (EDGES, PRICED),
-            (SLOPES, TRUSTED),
-        )
-        if name not in names
-    )
-    show(
-        record,
-        f"explore {name}",
-        now,
-        answers,
-        without,
-        drawer="details" if name in TRUSTED else "",
-    )
-    if name in TRUSTED:
-        show(record, f"trust {name}", now, answers, without, drawer="trust", disk=True)
+    without = tuple(question for question, names in ANSWERED_OF.items() if name not in names)
+    if name not in TRUSTED:
+        keep_page(record, f"explore {name}", now, answers, without)
+        return
+    keep_page(record, f"explore {name}", now, answers, without, drawer="details")
+    keep_page(record, f"trust {name}", now, answers, without, drawer="trust", disk=True)
 
 
 def inputs_of(record: Record, name: str, fields: Mapping[str, Any]) -> Any:
@@ -235,16 +222,19 @@ def state_of(
     return now if hand is None else replace(now, hand=hand)
 
 
-def show(
+def keep_page(
     record: Record, name: str, now: Any, answers: Answers, without: Sequence[str] = (), **ui: Any
 ) -> None:
-    """Keep what every panel that is seen shows before and after its questions are answered, and what presses do."""
+    """Keep what every panel that is seen shows before and after its questions are answered, and what presses do.
+
+    `ui`: fields of `OpenPanels`, which decides what is seen.
+    """
     now = replace(now, ui=named("explorer.views.page_state.OpenPanels")(**ui))
-    record.call(f"{name}/at first", shown, now)
-    now = record.run(f"{name}/answers", answers.settled, now, without)
+    record.ask(f"{name}/at first", parts_seen, now)
+    now = record.make(f"{name}/answers", answers.settled, now, without)
     if now is None:
         return
-    record.call(f"{name}/settled", shown, now)
+    record.ask(f"{name}/settled", parts_seen, now)
     for panel in named("explorer.page.PANELS"):
         if not panel.seen(now.ui):
             continue
@@ -253,11 +243,16 @@ def show(
             record.keep(f"{name}/reacts", effects)
         for press, act in panel.presses.items():
             for number, value in enumerate(PRESSES.get(press, ())):
-                record.call(f"{name}/press {press} {number}", act, now, value)
+                record.ask(f"{name}/press {press} {number}", act, now, value)
 
 
-def shown(now: Any) -> dict[str, Any]:
-    """All parts and texts of the panels that are seen."""
+def work_result(work: Any) -> Any:
+    """What a work of the page's own thread returns, without a thread."""
+    return named("explorer.workers.call.at_once")(work.run(lambda: None))
+
+
+def parts_seen(now: Any) -> dict[str, Any]:
+    """What the panels that are seen show, by the name of each part or text."""
     parts = dict[str, Any]()
     for panel in named("explorer.page.PANELS"):
         if panel.seen(now.ui):
@@ -278,10 +273,10 @@ def compare(record: Record, explored: Mapping[str, Any], answers: Answers) -> No
             f"pinned {a}", "explorer.model.session_state.Pinned", explored[a], solution
         )
         now = state_of(record, f"{b} beside {a}", explored[b], pinned=pinned)
-        show(record, f"{b} beside {a}", now, answers, (BAND, WATERFALL), drawer="details")
+        keep_page(record, f"{b} beside {a}", now, answers, (BAND, WATERFALL), drawer="details")
     for name in ("opening", "linear twist", "hover", "bo105", "r22", "xv15"):
         now = state_of(record, f"{name} in aviation units", explored[name], units="Aviation")
-        show(record, f"{name} in aviation units", now, answers, (BAND, WATERFALL))
+        keep_page(record, f"{name} in aviation units", now, answers, (BAND, WATERFALL))
 
 
 def actuate(
@@ -296,7 +291,7 @@ def actuate(
     now = state_of(record, f"actuator {name}", inputs_of(record, f"actuator {name}", sliders), hand)
     without = (BAND, WATERFALL) if name in FORESEEN else (BAND, WATERFALL, SLOPES, DIAL, STROKE)
     for place, lifted in (("out", True), ("in", False)):
-        show(
+        keep_page(
             record,
             f"actuator {name}, {place}",
             now,

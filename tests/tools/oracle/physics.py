@@ -15,8 +15,8 @@ NUMBERS = (
     "induced_power_factor", "lift_to_drag", "blade_frequencies", "disk",
 )  # fmt: skip
 """What is read of every solution."""
-SLOPES = ("fz", "fx", "inflow", "theta", "u_t", "u_p", "u_r", "rate", "swirl")
-"""Weights of a measure whose gradient is asked."""
+FIELDS = ("fz", "fx", "inflow", "theta", "u_t", "u_p", "u_r", "rate", "swirl")
+"""Fields over the disk: of each the gradient of a weighted sum is asked."""
 WEIGHTED = (
     "as built", "hover", "slow", "bent", "thesis", "2/rev twist", "tunnel, tilted", "inflow local-momentum",
     "without dynamic-stall",
@@ -32,10 +32,10 @@ def write(record: Record) -> None:
     """Every design's own answers, then those of pairs and of steps."""
     solved = dict[str, Any]()
     for name, arguments in all_designs().items():
-        analysis = solve(record, name, arguments)
+        analysis = keep_solution(record, name, arguments)
         if analysis is not None and analysis.solution.converged:
             solved[name] = analysis
-            record.scenario(f"{name}/slopes", read_slopes, name, analysis)
+            record.scenario(f"{name}/slopes", keep_derived, name, analysis)
     for name, other in (
         ("as built", "inflow drees"),
         ("hover", "hover, linear"),
@@ -47,11 +47,11 @@ def write(record: Record) -> None:
     for name in LOADED:
         record.ask(f"{name}/hub loads", "rotor.hub_loads", solved[name])
     for name in WEIGHTED:
-        record.scenario(f"{name}/weighted", read_weighted, name, solved[name])
-    record.scenario("steps", follow_steps)
+        record.scenario(f"{name}/weighted", keep_weighted_gradients, name, solved[name])
+    record.scenario("steps", keep_steps)
 
 
-def solve(record: Record, name: str, arguments: Mapping[str, Any]) -> Any:
+def keep_solution(record: Record, name: str, arguments: Mapping[str, Any]) -> Any:
     """The analysis of a design, with all that is read of its solution kept; None where there is no design."""
     design = record.make(f"{name}/design", "rotor.make_design", **arguments)
     if design is None:
@@ -62,14 +62,14 @@ def solve(record: Record, name: str, arguments: Mapping[str, Any]) -> Any:
     if analysis is None:
         return None
     for number in NUMBERS:
-        record.see(f"{name}/{number}", analysis.solution, number)
+        record.ask_attribute(f"{name}/{number}", analysis.solution, number)
     record.keep(f"{name}/printed", repr(analysis.solution))
     record.ask(f"{name}/record", "rotor.solution_record", analysis.solution)
     return analysis
 
 
-def read_slopes(record: Record, name: str, analysis: Any) -> None:
-    """Loads of one blade, gradients of power and what uncertain inputs change."""
+def keep_derived(record: Record, name: str, analysis: Any) -> None:
+    """Keep the loads along a blade, the gradients of power, and how uncertain inputs change it."""
     record.ask(f"{name}/distribution", "rotor.distribution", analysis.solution)
     for objective in ("total", "induced"):
         record.ask(f"{name}/gradient of {objective}", "rotor.power_gradient", analysis, objective)
@@ -81,25 +81,25 @@ def read_slopes(record: Record, name: str, analysis: Any) -> None:
     record.ask(f"{name}/doubt", "rotor.doubt", analysis)
 
 
-def read_weighted(record: Record, name: str, analysis: Any) -> None:
-    """Gradients of measures that weigh a field with numbers drawn once."""
+def keep_weighted_gradients(record: Record, name: str, analysis: Any) -> None:
+    """Keep the gradient by pitch of a weighted sum of each field over the disk; the weights are drawn once."""
     shape = analysis.adjoint.problem.disk.shape
-    for slope in SLOPES:
+    for field in FIELDS:
         weights = np.random.default_rng(1).normal(size=shape)
         measure = record.make(
-            f"{name}/weighted {slope}", "rotor.trim.adjoint.ElementSlopes", **{slope: weights}
+            f"{name}/weighted {field}", "rotor.trim.adjoint.ElementSlopes", **{field: weights}
         )
         if measure is not None:
             record.ask(
-                f"{name}/weighted {slope}",
+                f"{name}/weighted {field}",
                 "rotor.trim.adjoint.Adjoint.by_pitch",
                 analysis.adjoint,
                 measure,
             )
 
 
-def follow_steps(record: Record) -> None:
-    """Trims that start from the one before, as a slider's do: they go ahead of it along the same direction."""
+def keep_steps(record: Record) -> None:
+    """Keep trims that each start from the one before, as those of a slider do, and from its direction."""
     last = None
     for k, mu in enumerate((0.2, 0.21, 0.22, 0.25, 0.1, 0.05, 0.0, 0.15)):
         design = record.make(f"step {k}", "rotor.make_design", mu=mu, twist="linear:-10")

@@ -61,7 +61,7 @@ def draw_rotor(record: Record, name: str, solution: Any, view: Any) -> None:
     shape = record.ask(f"{name}/blade shape", f"{picture}.blade_mesh.blade_shape", design.rotor)
     form = record.ask(f"{name}/form", f"{picture}.picture.flown_form", solution, view, 1.0)
     if form is not None:
-        record.call(f"{name}/vertices", form.vertices, shape)
+        record.ask(f"{name}/vertices", form.vertices, shape)
     record.ask(f"{name}/airframe", f"{picture}.airframe.airframe", design.rotor, design.tail_rotor)
     record.ask(f"{name}/head", f"{picture}.airframe.rotor_head", design.rotor)
     record.ask(f"{name}/mast", f"{picture}.airframe.mast", design.rotor.radius)
@@ -149,32 +149,27 @@ def draw_disk(record: Record, name: str, solution: Any, view: Any) -> None:
 
 
 def draw_lines(record: Record, name: str, solution: Any, before: Any) -> None:
-    """Charts along the blade, alone and beside another design."""
+    """Keep charts along the blade, alone and beside another design, with measured points and bands of doubt."""
     charts = "explorer.charts"
     for azimuth in (65.0, 270.0):
         for other, reference in (("alone", None), ("beside", before)):
-            place = f"{name}/alpha at {azimuth}, {other}"
-            keep_chart(
+            ask_chart(
                 record,
-                place,
-                record.make(place, f"{charts}.strip.alpha_chart", solution, reference, azimuth),
+                f"{name}/alpha at {azimuth}, {other}",
+                f"{charts}.strip.alpha_chart",
+                solution,
+                reference,
+                azimuth,
             )
-    keep_chart(
-        record,
-        f"{name}/lift",
-        record.make(f"{name}/lift", f"{charts}.strip.lift_chart", solution, before),
-    )
+    ask_chart(record, f"{name}/lift", f"{charts}.strip.lift_chart", solution, before)
     measured = record.make(f"{name}/measured", f"{charts}.measured.MeasuredChart")
     flown = record.make(f"{name}/flights", f"{charts}.measured.FlownPowers")
     record.ask(f"{name}/source", f"{charts}.measured.source_of", solution.design)
+    points = record.ask(f"{name}/points", measured.chart, solution)
+    keep_chart(record, f"{name}/points", points)
+    band = record.make(f"{name}/doubt", "rotor.doubt", solution, before)
     for title, units in units_by_title().items():
-        keep_chart(
-            record,
-            f"{name}/{title}/measured",
-            record.call(f"{name}/{title}/points", measured.chart, solution),
-        )
-        record.call(f"{name}/{title}/marks", flown.marks, solution, units)
-        band = record.make(f"{name}/{title}/doubt", "rotor.doubt", solution, before)
+        record.ask(f"{name}/{title}/marks", flown.marks, solution, units)
         record.ask(f"{name}/{title}/doubt rows", f"{charts}.doubt.doubt_rows", band, units)
 
 
@@ -193,11 +188,7 @@ def probe(record: Record, name: str, solution: Any) -> None:
                 solution,
                 opened,
             )
-        keep_chart(
-            record,
-            f"{place}/lift",
-            record.make(f"{place}/lift", "explorer.charts.probe_measured.lift_chart", here),
-        )
+        ask_chart(record, f"{place}/lift", "explorer.charts.probe_measured.lift_chart", here)
         beside = record.ask(
             f"{place}/airloads", "explorer.charts.probe_measured.airload_comparison", solution, r
         )
@@ -221,7 +212,7 @@ def draw_curves(record: Record, solved: Mapping[str, Any]) -> None:
         other = reference or design
         for _ in curves.sweep(design, other):
             pass
-        curve = record.call(f"{name}/curve", curves.known, design, other)
+        curve = record.ask(f"{name}/curve", curves.known, design, other)
         mu = design.condition.advance_ratio
         change = 1234.5 if reference else 0.0
         bands = record.ask(
@@ -229,7 +220,8 @@ def draw_curves(record: Record, solved: Mapping[str, Any]) -> None:
         )
         for title, units in units_by_title().items():
             place = f"{name}/{title}"
-            total = record.make(
+            total = ask_chart(
+                record,
                 f"{place}/total",
                 f"{strip}.total_power_chart",
                 curve,
@@ -238,8 +230,8 @@ def draw_curves(record: Record, solved: Mapping[str, Any]) -> None:
                 units,
                 design=design,
             )
-            keep_chart(record, f"{place}/total", total)
-            moved = record.make(
+            ask_chart(
+                record,
                 f"{place}/change",
                 f"{strip}.power_change_chart",
                 curve,
@@ -249,12 +241,7 @@ def draw_curves(record: Record, solved: Mapping[str, Any]) -> None:
                 units,
                 band=800.0,
             )
-            keep_chart(record, f"{place}/change", moved)
-            keep_chart(
-                record,
-                f"{place}/banded",
-                record.make(f"{place}/banded", f"{strip}.with_band", total, bands, units),
-            )
+            ask_chart(record, f"{place}/banded", f"{strip}.with_band", total, bands, units)
             marked = record.make(f"{place}/speeds", f"{strip}.with_speeds", total, curve, design)
             if marked is not None:
                 keep_chart(record, f"{place}/speeds", marked[0])
@@ -271,7 +258,7 @@ def draw_actuators(record: Record, solution: Any) -> None:
             inputs = record.make(
                 f"{name}/inputs", "explorer.model.actuator_inputs.ActuatorInputs", id, drives=drives
             )
-            installed = record.call(f"{name}/installed", inputs.installed, design.rotor)
+            installed = record.ask(f"{name}/installed", inputs.installed, design.rotor)
             record.ask(
                 f"{name}/picture",
                 "explorer.picture.lifted_picture.lifted_picture",
@@ -279,8 +266,8 @@ def draw_actuators(record: Record, solution: Any) -> None:
                 installed,
                 design,
             )
-            record.call(f"{name}/reach", inputs.reach, installed)
-            record.call(f"{name}/flown", lambda inputs=inputs: str(inputs.apply(design)))
+            record.ask(f"{name}/reach", inputs.reach, installed)
+            record.ask(f"{name}/flown", lambda inputs=inputs: str(inputs.apply(design)))
     record.ask(
         "lifted camera", "explorer.picture.lifted_blade.fit_lifted", design.rotor.radius, 1.5
     )
@@ -300,8 +287,15 @@ def draw_colours(record: Record) -> None:
         )
 
 
+def ask_chart(record: Record, name: str, path: str, *arguments: Any, **options: Any) -> Any:
+    """The chart that a function returns, which is kept as of `keep_chart`; None where there is none."""
+    chart = record.make(name, path, *arguments, **options)
+    keep_chart(record, name, chart)
+    return chart
+
+
 def keep_chart(record: Record, name: str, chart: Any) -> None:
-    """A chart as the page's script takes it, and as SVG."""
+    """Keep a chart as the page's script takes it, and as SVG; nothing where there is none."""
     if chart is None:
         return
     record.ask(f"{name}/drawn", "rotor.support.chart.drawn_chart", chart)

@@ -8,7 +8,6 @@ import shutil
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 from tests.tools.faults import faults_in, text_with
@@ -17,7 +16,7 @@ from .compare import difference, read
 
 LEFT_OUT = (".git", ".venv", "artefacts", "dist", ".hypothesis", ".pytest_cache", "docs")
 """Folders that no value depends on."""
-FIRST = {
+LIKELY_KINDS = {
     "explorer/text": ("text", "panel", "search", "export"),
     "explorer/story": ("text",),
     "explorer/sharing": ("text", "session"),
@@ -35,10 +34,14 @@ FIRST = {
     "rotor": ("physics", "command", "text"),
 }
 """By the folder of a fault, the kinds that are most likely to notice it; the others follow."""
-SECONDS = 900
-"""Processor time of one kind: a fault may make a loop endless."""
-Asked = Callable[[Path, str, Path], bool]
-"""Writes the values of a checkout, a kind of them, into a folder; False where that fails."""
+LIMIT_S = 900
+"""Processor time of one kind [s]: a fault may make a loop endless."""
+RunKind = Callable[[Path, str, Path], bool]
+"""Writes the values that a checkout has of a kind into a folder; False where it cannot be run."""
+
+
+class KindFailedError(Exception):
+    """A kind that cannot be run even without a fault, which can show none."""
 
 
 @dataclass(frozen=True)
@@ -70,9 +73,12 @@ def faults_of(root: Path, files: Sequence[str], count: int, seed: int) -> list[F
 
 
 def plant(
-    root: Path, files: Sequence[str], count: int, seed: int, kinds: Sequence[str], ask: Asked
+    root: Path, files: Sequence[str], count: int, seed: int, kinds: Sequence[str], run: RunKind
 ) -> list[Fault]:
-    """Print of each fault which kind notices it, and by which value; returns those that none does."""
+    """Print of each fault which kind notices it, and by which value; returns those that none does.
+
+    `KindFailedError` where a kind cannot be run in the tree as it is.
+    """
     missed = list[Fault]()
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -84,8 +90,11 @@ def plant(
             noticed = ""
             for kind in _order(fault.file, kinds):
                 if kind not in known:
-                    known[kind] = _values(checkout, kind, folder, ask) or {}
-                noticed = _noticed(checkout, fault, kind, folder, known[kind], ask)
+                    values = _values(checkout, kind, folder, run)
+                    if values is None:
+                        raise KindFailedError(f"{kind} cannot be run without a fault")
+                    known[kind] = values
+                noticed = _noticed(checkout, fault, kind, folder, known[kind], run)
                 if noticed:
                     break
             print(f"{fault}: {noticed or 'NOT NOTICED'}", flush=True)
@@ -96,22 +105,25 @@ def plant(
 
 def _order(file: str, kinds: Sequence[str]) -> list[str]:
     """The kinds, the likeliest first."""
-    parts = [part for part in FIRST if file.startswith(f"{part}/")]
-    likely = FIRST[max(parts, key=len)] if parts else ()
+    parts = [part for part in LIKELY_KINDS if file.startswith(f"{part}/")]
+    likely = LIKELY_KINDS[max(parts, key=len)] if parts else ()
     first = [kind for kind in likely if kind in kinds]
     return first + [kind for kind in kinds if kind not in first]
 
 
 def _noticed(
-    checkout: Path, fault: Fault, kind: str, folder: Path, known: dict[str, str], ask: Asked
+    checkout: Path, fault: Fault, kind: str, folder: Path, known: dict[str, str], run: RunKind
 ) -> str:
-    """How many values of a kind a fault changes, and the first of them; empty where it changes none."""
+    """What shows a fault, as `text, 3 values, as built/status`; empty where no value of the kind does.
+
+    The checkout has the fault only while the kind is run.
+    """
     place = checkout / fault.file
     before = place.read_bytes()
     stat = place.stat()
     place.write_text(fault.text, "utf-8")
     try:
-        values = _values(checkout, kind, folder, ask)
+        values = _values(checkout, kind, folder, run)
     finally:
         place.write_bytes(before)
         # With the time of before, the kernels that are kept for the file serve again.
@@ -123,16 +135,18 @@ def _noticed(
     return f"{kind}, {len(names)} values, {names[0]}" if names else ""
 
 
-def _values(checkout: Path, kind: str, folder: Path, ask: Asked) -> dict[str, str] | None:
-    return read(folder, kind) if ask(checkout, kind, folder) else None
+def _values(checkout: Path, kind: str, folder: Path, run: RunKind) -> dict[str, str] | None:
+    """The values of a kind by name; None where it cannot be run."""
+    return read(folder, kind) if run(checkout, kind, folder) else None
 
 
-def limited() -> Callable[[], None]:
-    """Limits the processor time of a process that is started."""
-    return partial(resource.setrlimit, resource.RLIMIT_CPU, (SECONDS, SECONDS))
+def limit_processor_time() -> None:
+    """End this process once it has taken `LIMIT_S` of processor time."""
+    resource.setrlimit(resource.RLIMIT_CPU, (LIMIT_S, LIMIT_S))
 
 
 def _fault(file: str, text: str, number: int) -> Fault:
+    """The fault of that number among all that a file with this text can have."""
     tree = ast.parse(text)
     right, words, wrong = _faults(tree)[number]
     return Fault(file, getattr(right, "lineno", 0), words, text_with(tree, right, wrong))

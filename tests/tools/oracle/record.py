@@ -49,6 +49,10 @@ def named(path: str) -> Any:
     raise Absent(path)
 
 
+Function = str | Callable[..., Any]
+"""A function, or its dotted path as of `named`."""
+
+
 class Record:
     """The values of one kind, by name. A failure is a value, too, so that no scenario keeps another from its answer."""
 
@@ -57,28 +61,23 @@ class Record:
         self.values: dict[str, str] = {}
         self._folders = tuple(folders)
 
-    def ask(self, name: str, path: str, *arguments: Any, **options: Any) -> Any:
-        """Keep what the function under a dotted path returns, and return it; None where it fails."""
-        return self._try(name, lambda: named(path)(*arguments, **options), kept=True)
+    def ask(self, name: str, function: Function, *arguments: Any, **options: Any) -> Any:
+        """What a function returns, which is kept under the name; None where it fails."""
+        return self._try(name, lambda: _callable(function)(*arguments, **options), kept=True)
 
-    def call(self, name: str, function: Callable[..., Any], *arguments: Any) -> Any:
-        """As `ask`, of a function that is known already."""
-        return self._try(name, lambda: function(*arguments), kept=True)
+    def make(self, name: str, function: Function, *arguments: Any, **options: Any) -> Any:
+        """What a function returns, which is not kept, for further questions; None where it fails.
 
-    def make(self, name: str, path: str, *arguments: Any, **options: Any) -> Any:
-        """As `ask`, but for something that is only asked further: kept is no more than why it could not be made."""
-        return self._try(name, lambda: named(path)(*arguments, **options), kept=False)
-
-    def run(self, name: str, function: Callable[..., Any], *arguments: Any) -> Any:
-        """As `make`, of a function that is known already."""
-        return self._try(name, lambda: function(*arguments), kept=False)
+        Why it fails is kept.
+        """
+        return self._try(name, lambda: _callable(function)(*arguments, **options), kept=False)
 
     def scenario(self, name: str, write: Callable[..., None], *arguments: Any) -> None:
         """Have a scenario write its values; where it fails half way, those after it are kept all the same."""
-        self.run(f"{name}/whole", write, self, *arguments)
+        self.make(f"{name}/whole", write, self, *arguments)
 
-    def see(self, name: str, thing: Any, attribute: str) -> Any:
-        """Keep what an object has under a name, and return it; None where it fails."""
+    def ask_attribute(self, name: str, thing: Any, attribute: str) -> Any:
+        """An attribute of an object, which is kept under the name; None where it fails."""
 
         def read() -> Any:
             if not hasattr(type(thing), attribute) and attribute not in getattr(
@@ -119,6 +118,10 @@ class Record:
         if kept:
             self.keep(name, answer)
         return answer
+
+
+def _callable(function: Function) -> Callable[..., Any]:
+    return named(function) if isinstance(function, str) else function
 
 
 def flattened(name: str, value: Any, depth: int = FLAT) -> Iterator[tuple[str, str]]:

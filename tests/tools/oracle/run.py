@@ -25,8 +25,8 @@ _START = """
 import sys
 sys.path[:0] = [{checkout!r}]
 sys.path.append({scripts!r})
-from oracle.run import write
-write({kind!r}, {out!r})
+from oracle.run import write_kind
+write_kind({kind!r}, {out!r})
 """
 """The program of a kind: the packages are those of the checkout, the scripts are ours."""
 _SETTINGS = {
@@ -37,12 +37,12 @@ _SETTINGS = {
 }
 
 
-def ask(
+def run_kind(
     checkout: Path, kind: str, out: Path, begin: Callable[[], None] | None = None
 ) -> tuple[bool, str]:
-    """Whether a kind could be run, and how it went in words; its values are then in a file of `out`.
+    """Whether a kind of values could be asked of a checkout, and one line on how it went.
 
-    `begin`: what the new process does first.
+    Its values are then in `out`/KIND.txt. `begin`: what the new process does first.
     """
     scripts = Path(__file__).parents[1]
     program = _START.format(checkout=str(checkout), scripts=str(scripts), kind=kind, out=str(out))
@@ -61,10 +61,10 @@ def ask(
     return True, f"{name}: {done.stdout.splitlines()[-1]}"
 
 
-def write(kind: str, out: str) -> None:
-    """Ask the packages that are first on the path for one kind of values, and write them to a file.
+def write_kind(kind: str, out: str) -> None:
+    """Ask the checkout that is first on the path for one kind of values, and write them to `out`/KIND.txt.
 
-    What one kind leaves behind is in no other's way.
+    Its scenarios run in a temporary folder, and see no files of earlier ones.
     """
     import rotor
 

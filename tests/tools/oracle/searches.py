@@ -1,11 +1,11 @@
 """Searches, maps, schedules and fronts as the page asks for them, and what it says of each."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 from .designs import QUICK
-from .pictures import keep_chart, units_by_title
+from .pictures import ask_chart, units_by_title
 from .record import Record, named
 
 REQUESTS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
@@ -40,11 +40,12 @@ REQUESTS: Mapping[str, tuple[Mapping[str, Any], Mapping[str, Any]]] = {
 
 def write(record: Record) -> None:
     """Searches with their words, then maps, schedules, fronts and the best linear twist."""
-    for name, (asked, arguments) in REQUESTS.items():
-        record.scenario(name, search, name, asked, arguments)
-    record.scenario("maps", draw_map)
-    record.scenario("schedule", plan)
-    record.scenario("front", trade)
+    for name, (request_fields, arguments) in REQUESTS.items():
+        record.scenario(name, search, name, request_fields, arguments)
+    for name in ("two-segment", "quadratic", "two-segment-free"):
+        record.scenario(f"map of {name}", draw_map, name)
+    record.scenario("schedule", search_schedule)
+    record.scenario("front", search_front)
     for name, arguments in {
         "µ 0.3": {"mu": 0.3, "inflow": "drees"},
         "hover": {"hover": True},
@@ -64,24 +65,36 @@ def write(record: Record) -> None:
 
 
 def search(
-    record: Record, name: str, asked: Mapping[str, Any], arguments: Mapping[str, Any]
+    record: Record, name: str, request_fields: Mapping[str, Any], arguments: Mapping[str, Any]
 ) -> None:
-    """A search as a worker process runs it, and all that is said before, under way and at its end."""
+    """Keep what a search that the page asks for finds, as a worker process runs it, and what is said of it."""
     design = named("rotor.make_design")(**arguments)
-    request = record.ask(f"{name}/request", "explorer.model.search_run.SearchRequest", **asked)
+    request = record.ask(
+        f"{name}/request", "explorer.model.search_run.SearchRequest", **request_fields
+    )
     legs = named("explorer.model.search_run.legs")
-    found = record.call(f"{name}/search", lambda: str(request.search(design, legs).objective))
-    if found is None:
+    objective = record.ask(f"{name}/search", lambda: str(request.search(design, legs).objective))
+    if objective is None:
+        # The page refuses the request: the reason is kept.
         return
-    wanted = replace(request.search(design, legs), starts=2)
+    few_starts = replace(request.search(design, legs), starts=2)
     built = named("explorer.model.inputs.baseline_of")(design)
     task = record.make(
-        f"{name}/task", "explorer.workers.solver.SearchTask", wanted, built, "as built"
+        f"{name}/task", "explorer.workers.solver.SearchTask", few_starts, built, "as built"
     )
     reports = list[Any]()
-    optimum = record.call(f"{name}/optimum", task.run, reports.append, lambda: False)
-    record.keep(f"{name}/reports", {number: str(one)[:400] for number, one in enumerate(reports)})
-    began = record.make(
+    optimum = record.ask(f"{name}/optimum", task.run, reports.append, lambda: False)
+    # In a list, each report has one line.
+    record.keep(f"{name}/reports", {number: [one] for number, one in enumerate(reports)})
+    for state, work in search_states(record, name, task, reports, optimum).items():
+        describe_search(record, f"{name}/{state}", work)
+
+
+def search_states(
+    record: Record, name: str, task: Any, reports: Sequence[Any], optimum: Any
+) -> dict[str, Any]:
+    """The page's record of a search at four moments: under way, stopped, done, and after the process broke."""
+    begun = record.make(
         f"{name}/record",
         "explorer.workers.background.WorkRecord",
         task,
@@ -90,70 +103,72 @@ def search(
         tuple(reports[:3]),
     )
     ended = named("rotor.support.processes.JobEnded")
-    states = {
-        "begun": began,
-        "stopped": replace(began, reports=tuple(reports[:5])).then(ended(None, stopped=True)),
-        "done": replace(began, reports=tuple(reports)).then(ended(optimum)),
-        "broken": began.then(named("rotor.support.processes.JobFailed")("No more memory.")),
+    failed = named("rotor.support.processes.JobFailed")
+    return {
+        "begun": begun,
+        "stopped": replace(begun, reports=tuple(reports[:5])).then(ended(None, stopped=True)),
+        "done": replace(begun, reports=tuple(reports)).then(ended(optimum)),
+        "broken": begun.then(failed("No more memory.")),
     }
-    for state, one in states.items():
-        run = record.make(f"{name}/{state}/run", "explorer.model.search_run.SearchRun", one)
-        place = f"{name}/{state}"
-        words = "explorer.text.search_words"
-        record.ask(f"{place}/standing", f"{words}.standing", run)
-        record.ask(f"{place}/result", f"{words}.result", run)
-        record.see(f"{place}/part done", run, "part_done")
-        for title, units in units_by_title().items():
-            record.ask(f"{place}/{title}/headline", f"{words}.headline", run, units)
-            record.ask(f"{place}/{title}/details", f"{words}.details", run, units)
-            for cursor in range(len(run.frames)):
-                record.ask(
-                    f"{place}/{title}/frame {cursor}", f"{words}.frame_line", run, cursor, units
-                )
 
 
-def draw_map(record: Record) -> None:
-    """Power over two parameters of a concept."""
+def describe_search(record: Record, name: str, work: Any) -> None:
+    """Keep all that the page says of a search from its record, and of each frame of it."""
+    words = "explorer.text.search_words"
+    run = record.make(f"{name}/run", "explorer.model.search_run.SearchRun", work)
+    record.ask(f"{name}/standing", f"{words}.standing", run)
+    record.ask(f"{name}/result", f"{words}.result", run)
+    record.ask_attribute(f"{name}/part done", run, "part_done")
+    for title, units in units_by_title().items():
+        record.ask(f"{name}/{title}/headline", f"{words}.headline", run, units)
+        record.ask(f"{name}/{title}/details", f"{words}.details", run, units)
+        for frame in range(len(run.frames)):
+            record.ask(f"{name}/{title}/frame {frame}", f"{words}.frame_line", run, frame, units)
+
+
+def draw_map(record: Record, name: str) -> None:
+    """Keep power over two parameters of a concept, as a worker process reports it, and its drawing."""
     design = named("rotor.make_design")(mu=0.3, twist="linear:-12", **QUICK)
+    concept = named("rotor.optimisation.concepts.CONCEPTS")[name]
     maps = "explorer.charts.power_map"
-    for name in ("two-segment", "quadratic", "two-segment-free"):
-        concept = named("rotor.optimisation.concepts.CONCEPTS")[name]
-        axes = record.ask(f"map of {name}/axes", f"{maps}.default_axes", concept)
-        objective = named("rotor.optimisation.at_condition")(design)
-        start = record.ask(
-            f"map of {name}/start", "rotor.optimisation.concept.nearest", concept, design.twist
-        )
-        task = record.make(
-            f"map of {name}/task",
-            "explorer.workers.solver.MapTask",
-            design,
-            concept,
-            objective,
-            axes,
-            start,
-        )
-        levels = list[Any]()
-        # A second level is enough: the page refines as long as it has time.
-        record.call(
-            f"map of {name}/run", task.run, levels.append, lambda levels=levels: len(levels) > 3
-        )
-        record.keep(f"map of {name}/levels", levels)
-        known = [one for one in levels if hasattr(one, "powers")]
-        if not known:
-            continue
-        drawn = record.make(
-            f"map of {name}/drawn", f"{maps}.PowerMap", task, named("numpy.array")(known[-1].powers, dtype=float),
-            known[-1].values, known[-1].least,
-        )  # fmt: skip
-        record.ask(f"map of {name}/drawing", f"{maps}.drawing", drawn, design.twist)
-        record.ask(f"map of {name}/place", f"{maps}.place_on", drawn, design.twist)
-        record.call(f"map of {name}/at", lambda drawn=drawn: str(drawn.at(0.3, 0.7)))
-        for title, units in units_by_title().items():
-            record.ask(f"map of {name}/{title}/least", f"{maps}.least_words", drawn, units)
+    place = f"map of {name}"
+    axes = record.ask(f"{place}/axes", f"{maps}.default_axes", concept)
+    objective = named("rotor.optimisation.at_condition")(design)
+    start = record.ask(
+        f"{place}/start", "rotor.optimisation.concept.nearest", concept, design.twist
+    )
+    task = record.make(
+        f"{place}/task",
+        "explorer.workers.solver.MapTask",
+        design,
+        concept,
+        objective,
+        axes,
+        start,
+    )
+    reports = list[Any]()
+    # The coarse grid is enough: the finer ones are computed alike.
+    record.ask(f"{place}/run", task.run, reports.append, lambda: bool(map_levels(reports)))
+    record.keep(f"{place}/reports", reports)
+    coarse = map_levels(reports)[0]
+    powers = named("numpy.array")(coarse.powers, dtype=float)
+    power_map = record.make(
+        f"{place}/drawn", f"{maps}.PowerMap", task, powers, coarse.values, coarse.least
+    )
+    record.ask(f"{place}/drawing", f"{maps}.drawing", power_map, design.twist)
+    record.ask(f"{place}/place", f"{maps}.place_on", power_map, design.twist)
+    record.ask(f"{place}/at", lambda: str(power_map.at(0.3, 0.7)))
+    for title, units in units_by_title().items():
+        record.ask(f"{place}/{title}/least", f"{maps}.least_words", power_map, units)
 
 
-def plan(record: Record) -> None:
-    """The best twist of each flight condition, and the best fixed blade."""
+def map_levels(reports: Sequence[Any]) -> list[Any]:
+    """The grids among what a task reports; the other reports are how much of it is done."""
+    return [report for report in reports if hasattr(report, "powers")]
+
+
+def search_schedule(record: Record) -> None:
+    """Keep the best twist of each flight condition and the best fixed blade, with what the page shows of them."""
     design = named("rotor.make_design")(mu=0.2, **QUICK)
     concept = named("rotor.optimisation.concepts.CONCEPTS")["linear"]
     limits = named("rotor.optimisation.limits.Limits")()
@@ -172,7 +187,7 @@ def plan(record: Record) -> None:
     )
     task = record.make("schedule/task", "explorer.workers.solver.ScheduleTask", asked)
     reports = list[Any]()
-    record.call(
+    record.ask(
         "schedule/ended", lambda: str(type(task.run(reports.append, lambda: False)).__name__)
     )
     views = "explorer.charts.schedule_view"
@@ -182,29 +197,22 @@ def plan(record: Record) -> None:
             tuple(reports[:count]),
         )  # fmt: skip
         progress = record.make(f"schedule/{count}/progress", f"{views}.ScheduleProgress.of", one)
-        keep_chart(
-            record,
-            f"schedule/{count}/twist",
-            record.make(f"schedule/{count}/twist", f"{views}.twist_chart", progress, None),
-        )
-        keep_chart(
-            record,
-            f"schedule/{count}/saving",
-            record.make(f"schedule/{count}/saving", f"{views}.saving_chart", progress, None),
-        )
-        record.see(f"schedule/{count}/count", progress, "count")
+        place = f"schedule/{count}"
+        ask_chart(record, f"{place}/twist", f"{views}.twist_chart", progress, None)
+        ask_chart(record, f"{place}/saving", f"{views}.saving_chart", progress, None)
+        record.ask_attribute(f"schedule/{count}/count", progress, "count")
         record.ask(f"schedule/{count}/csv", f"{views}.csv_of", progress)
         for title, units in units_by_title().items():
             record.ask(f"schedule/{count}/{title}/table", f"{views}.table", progress, units)
             record.ask(f"schedule/{count}/{title}/verdict", f"{views}.verdict", progress, units)
 
 
-def trade(record: Record) -> None:
-    """Vibration: response to harmonics, and the front of power against it."""
+def search_front(record: Record) -> None:
+    """Keep the response of vibration to harmonics, and the front of power against vibration."""
     design = named("rotor.make_design")(mu=0.3, bending=True, inflow="drees")
     matrix = record.ask("front/matrix", "rotor.t_matrix", design, (2, 3))
     if matrix is not None:
-        record.call("front/response", lambda: matrix.response("3:1:0"))
+        record.ask("front/response", lambda: matrix.response("3:1:0"))
     front = record.make("front/found", "rotor.vibration_front", design, points=3)
     if front is not None:
         record.keep("front/printed", repr(front))

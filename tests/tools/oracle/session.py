@@ -7,7 +7,6 @@ notices, address and what is stored, as far as the step changed them.
 import asyncio
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
 from typing import Any
 
 from .record import Record, named
@@ -101,17 +100,10 @@ LINKS: Mapping[str, str] = {
     "a view": "?d=1;linear:-8;inflow=drees&v=1;field=mach-number",
 }
 """Addresses with which a page is opened."""
-DROPPED = frozenset(("order", "uuid", "container_uuid", "container_id", "id"))
+DROPPED = frozenset(("order", "uuid", "container_uuid", "container_id", "id", "_tab_container_ids"))
 """Properties of widgets that are drawn by chance, or are times."""
 COUNTERS = frozenset(("idle", "beat"))
 """Parts of the frame that count presses."""
-
-
-@dataclass
-class Seen:
-    """What was kept of a page so far."""
-
-    values: dict[str, str] = field(default_factory=dict[str, str])
 
 
 def write(record: Record) -> None:
@@ -124,7 +116,7 @@ def write(record: Record) -> None:
             record.scenario(
                 f"link {name}",
                 lambda record, name=name, query=query: ran(
-                    lambda: opened(record, app.address, name, query)
+                    lambda: open_link(record, app.address, name, query)
                 ),
             )
     finally:
@@ -132,33 +124,33 @@ def write(record: Record) -> None:
 
 
 async def walk(record: Record, address: str) -> None:
-    """One page, step by step."""
+    """Keep what each step of `WALK` changes on one page."""
     visitor = named("tests.tools.visitor.Visitor")(query=BEGIN)
     await visitor.open(address)
     await visitor.until(lambda: visitor.text("status") == "converged", PATIENCE_S)
     await settle(visitor)
-    seen = Seen()
+    shown: dict[str, str] = {}
     for number, (name, actions) in enumerate(WALK.items()):
         place = f"{number:02d} {name}"
         for action in actions:
             await attempt(record, f"{place}/{action[0]} {action[1]}", visitor, action)
             await settle(visitor)
-        keep(record, place, visitor, seen)
+        keep_changes(record, place, visitor, shown)
     await visitor.close()
 
 
-async def opened(record: Record, address: str, name: str, query: str) -> None:
-    """A page that begins with a link."""
+async def open_link(record: Record, address: str, name: str, query: str) -> None:
+    """Keep all that a page shows that is opened with a link."""
     visitor = named("tests.tools.visitor.Visitor")(query=query)
     await visitor.open(address)
     await visitor.until(lambda: visitor.frame.get("line") is not None, PATIENCE_S)
     await settle(visitor)
-    keep(record, f"link {name}", visitor, Seen())
+    keep_changes(record, f"link {name}", visitor, {})
     await visitor.close()
 
 
 async def attempt(record: Record, name: str, visitor: Any, action: Action) -> None:
-    """One action; where it cannot be done, that is a value."""
+    """Do one action; why it cannot be done is kept."""
     kind, what, value = action
     try:
         match kind:
@@ -187,22 +179,23 @@ def contents(visitor: Any) -> str:
     return "".join(str(widget.get("content", "")) for widget in visitor.widgets.values())
 
 
-def keep(record: Record, place: str, visitor: Any, seen: Seen) -> None:
-    """What the page shows, as far as it is other than before."""
+def keep_changes(record: Record, place: str, visitor: Any, shown: dict[str, str]) -> None:
+    """Keep what of the page is other than in `shown`, its parts as text by name, and bring `shown` up to date."""
     parts = {f"frame/{name}": part for name, part in visitor.frame.items() if name not in COUNTERS}
     parts |= widgets(visitor)
     parts["notices"] = visitor.notices
     parts["address"] = visitor.query
     parts["blade"] = visitor.blade
-    for name, text in visitor.again()._facts["kept"].items():
+    # What the browser stores. Earlier trees have no public name for it, either.
+    for name, text in visitor._facts["kept"].items():
         parts[f"kept {name}"] = text
     for name, value in parts.items():
         text = json.dumps(value, sort_keys=True, default=str)
-        if seen.values.get(name) != text:
-            seen.values[name] = text
+        if shown.get(name) != text:
+            shown[name] = text
             record.keep(f"{place}/{name}", value)
-    for name in seen.values.keys() - parts.keys():
-        del seen.values[name]
+    for name in shown.keys() - parts.keys():
+        del shown[name]
         record.keep(f"{place}/{name}", "no longer there")
 
 

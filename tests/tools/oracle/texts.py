@@ -49,7 +49,7 @@ def write(record: Record) -> None:
     record.scenario(
         "pairs", compare, {name: solved[name] for name in PAIRED if name in solved}, units
     )
-    record.scenario("changes", count, units)
+    record.scenario("changes", describe_changes, units)
     record.scenario("help", explain)
     record.scenario("lecture", lecture, units)
     record.scenario("links", links)
@@ -148,8 +148,8 @@ def lecture(record: Record, units: Mapping[str, Any]) -> None:
             )
 
 
-def count(record: Record, units: Mapping[str, Any]) -> None:
-    """Changes with every size of band, as no two designs have them; and masses, angles, lists."""
+def describe_changes(record: Record, units: Mapping[str, Any]) -> None:
+    """Keep what is said of drawn changes and bands of power, as no two designs have them; of masses and lists."""
     draw = np.random.default_rng(7)
     for number in range(DRAWN):
         change = float(draw.normal(0.0, 3e4))
@@ -202,7 +202,7 @@ def links(record: Record) -> None:
         design = record.make(f"{name}/linked", "rotor.make_design", **arguments)
         code = record.ask(f"{name}/link", "explorer.sharing.share.code_of", design)
         if code is not None:
-            record.call(
+            record.ask(
                 f"{name}/link read",
                 lambda code=code: str(named("explorer.sharing.share.design_from")(code)),
             )

@@ -136,7 +136,7 @@ RECIPES = {
 
 
 @dataclass(frozen=True)
-class Difference:
+class DeckDifference:
     """Largest differences between two decks over |alpha| <= 26 deg: cl [-], cd relative [-], and where."""
 
     cl: float
@@ -199,7 +199,7 @@ def make_deck(name: str, polars: PolarSet) -> C81Deck:
     return assemble_deck(recipe.title, [by_mach[m] for m in recipe.machs], recipe.traits.correct)
 
 
-def compare_decks(new: C81Deck, old: C81Deck) -> Difference:
+def compare_decks(new: C81Deck, old: C81Deck) -> DeckDifference:
     """Largest differences of `new` from `old`; raises ValueError when their knots differ."""
     for a, b in ((new.cl, old.cl), (new.cd, old.cd)):
         if (
@@ -216,4 +216,4 @@ def compare_decks(new: C81Deck, old: C81Deck) -> Difference:
         i, j = np.unravel_index(int(np.argmax(difference)), difference.shape)
         return f"{old.cl.alpha_deg[near[i]]:g} deg, Mach {old.cl.mach[j]:g}"
 
-    return Difference(float(lift.max()), where(lift), float(drag.max()), where(drag))
+    return DeckDifference(float(lift.max()), where(lift), float(drag.max()), where(drag))
