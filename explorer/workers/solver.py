@@ -147,6 +147,9 @@ class MapTask:
         """Reports the part done, 0…1, after each row, and a `MapLevel` for each grid; True when all were done."""
         known: dict[tuple[int, int], Lowest] = {}
         history, finest = TrimHistory(), self.steps[-1]
+        several = len(self.values) > len(self.axes)
+        # Where a grid holds every parameter its trims have no slopes, which the search for the least needs.
+        sloped = history if several else TrimHistory()
         for steps in self.steps:
             every = range(0, finest + 1, finest // steps)
             for row in every:
@@ -164,10 +167,7 @@ class MapTask:
                 begun = [
                     self.place(*place, values) for place, values in zip(places, nearby, strict=True)
                 ]
-                found, several = (
-                    self._least(begun, history, self.axes),
-                    len(self.values) > len(self.axes),
-                )
+                found = self._least(begun, history, self.axes)
                 across = (
                     self._least(map(self._across, begun), history, self.axes) if several else found
                 )
@@ -179,7 +179,7 @@ class MapTask:
             least = (
                 (power, values)
                 if power is None
-                else self._least([values], history, (), 0.02 * _UNSEEN)[0]
+                else self._least([values], sloped, (), 0.02 * _UNSEEN)[0]
             )
             tell(
                 MapLevel(

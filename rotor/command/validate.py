@@ -192,7 +192,7 @@ def report(comparison: Comparison) -> str:
     for point in comparison.points:
         computed, words = None, point.message
         if point.computed is not None:
-            aside = "" if point in comparison.judged else " (not counted)"
+            aside = "" if point in comparison.counting else " (not counted)"
             computed, words = (
                 point.computed[quantity],
                 f"{'yes' if point.within_scatter else 'no'}{aside}",

@@ -240,7 +240,7 @@ class Comparison:
     """Whether the inflow was asked for, and is not that of the preset."""
 
     @property
-    def judged(self) -> tuple[ComparedPoint, ...]:
+    def counting(self) -> tuple[ComparedPoint, ...]:
         """The points within the ranges that count."""
         return tuple(
             point
@@ -251,27 +251,25 @@ class Comparison:
     @property
     def counted(self) -> str:
         """What is compared at how many points, in words."""
-        of = f" of {len(self.points)}" if len(self.judged) < len(self.points) else ""
-        return (
-            f"{LABELS[self.measured.quantity].removesuffix(' [%]')}, {len(self.judged)} points{of}"
-        )
+        of = f" of {len(self.points)}" if len(self.counting) < len(self.points) else ""
+        return f"{LABELS[self.measured.quantity].removesuffix(' [%]')}, {len(self.counting)} points{of}"
 
     @property
     def lost(self) -> int:
         """How many of the points that count do not trim."""
-        return sum(point.computed is None for point in self.judged)
+        return sum(point.computed is None for point in self.counting)
 
     @cached_property
     def rms_percent(self) -> float | None:
         """Root mean square of the errors of the points that count and trim; None where none does."""
-        errors = [point.error_percent for point in self.judged if point.error_percent is not None]
+        errors = [point.error_percent for point in self.counting if point.error_percent is not None]
         return rms(errors) if errors else None
 
     @property
     def worst_percent(self) -> float | None:
         """The error of the largest size among the judged points that trim."""
         return max(
-            (one.error_percent for one in self.judged if one.error_percent is not None),
+            (one.error_percent for one in self.counting if one.error_percent is not None),
             key=abs,
             default=None,
         )
@@ -282,7 +280,7 @@ class Comparison:
         words = f"{self.worst_percent:+.1f} {self.measured.unit}"
         if not self.lost:
             return words
-        return f"{words}; {self.lost} of {len(self.judged)} do not trim"
+        return f"{words}; {self.lost} of {len(self.counting)} do not trim"
 
     @property
     def why_missed(self) -> str:

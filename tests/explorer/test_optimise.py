@@ -294,6 +294,18 @@ class TestMap:
         assert -2e-4 < beyond < 1e-5  # Within the last digit of a search, which ends earlier.
         assert drawn.least[-1] < np.nanmin(drawn.powers) - 100.0  # It lies between the points.
 
+    def test_a_map_that_holds_every_parameter_has_its_least(self):
+        """Nothing is free at a point of such a grid; the least lies between its points."""
+        design, concept = quick(), CONCEPTS["two-segment"]
+        values = tuple(parameter.start for parameter in concept.parameters)
+        task = MapTask(design, concept, at_condition(design), (0, 1), values, (2, 4))
+        told: list[Any] = []
+        assert task.run(told.append, no_stop)
+        power, _ = told[-1].least
+        found = run_search(Search(design, concept, band=False))
+        assert power == pytest.approx(solve(found.design).power.total, rel=2e-4)
+        assert power < np.nanmin(np.array(told[-1].powers, dtype=float))
+
     def test_the_least_is_said_with_all_its_parameters(self, drawn: PowerMap):
         x, y, power = drawn.least
         inboard, outboard, place = drawn.lowest[1]

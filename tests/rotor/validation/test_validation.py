@@ -174,7 +174,7 @@ def test_lift_along_a_stubby_blade_is_met_at_the_measured_thrust_but_not_at_the_
 def test_model_rotor_of_knight_and_hefner_needs_more_than_momentum_theory_gives():
     """4 to 12 % at working thrust, of induced power or of drag that grows with lift."""
     for name in ("knight-hefner-3", "knight-hefner-4"):
-        for point in compare(load_set(name), "annulus").judged:
+        for point in compare(load_set(name), "annulus").counting:
             assert point.error_percent is not None
             assert -12.0 < point.error_percent < -4.0
 
