@@ -172,40 +172,36 @@ def coverage(points: Iterable[tuple[PointAndBand, Sequence[float]]]) -> tuple[fl
 
 
 def doubt_set() -> TrustSet:
-    """The set of the trust page: measured powers and the bands of the computed ones."""
+    """The set of the trust page: measured powers and the bands of the computed ones.
+
+    Each rotor is judged by sizes of `MODEL` that are fitted to the other rotors.
+    """
     words, points, sizes = description(NAME), points_and_bands(), shipped_sizes()
+    left = left_out_sizes(points)
+    judged = [(point, left[point.rotor]) for point in points]
     rows: list[TrustRow] = []
     series: list[Points] = []
     for rotor, kind in dict.fromkeys((point.rotor, point.kind) for point in points):
-        mine = [point for point in points if (point.rotor, point.kind) == (rotor, kind)]
-        over = [point.over_band(sizes) for point in mine]
-        band = np.mean([abs(point.error / z) for point, z in zip(mine, over, strict=True)])
-        mean, inside = np.mean([point.error for point in mine]), sum(abs(z) <= 1.0 for z in over)
-        shown = (
-            f"{100 * abs(mean):.0f} % too {'low' if mean > 0.0 else 'high'} on average, {inside} of {len(mine)} "
-            f"within ± {100 * band:.0f} % ({_percent(coverage((point, sizes) for point in mine))})"
-        )
+        mine = [pair for pair in judged if (pair[0].rotor, pair[0].kind) == (rotor, kind)]
+        over = [point.over_band(of_others) for point, of_others in mine]
         name = f"{ROTORS[rotor]}, {kind}"
         series.append(Points("", over, [len(rows)] * len(mine), 1))
-        rows.append(words.row(name, shown, inside / len(mine), 0.1, note=words.notes.get(name, "")))
+        inside = sum(abs(ratio) <= 1.0 for ratio in over) / len(mine)
+        note = words.notes.get(name, "")
+        rows.append(words.row(name, _shown(mine, over), inside, 0.1, note=note))
     along = Axis("(measured − computed)/band")
     chart = Chart(
         "Error over band", along, Axis(names=tuple(row.what for row in rows)), tuple(series)
     )
-    left = left_out_sizes(points)
     means = {
-        "Mean over rotors, hover": [(point, sizes) for point in points if point.kind == HOVER],
-        "Mean over rotors, forward flight": [
-            (point, sizes) for point in points if point.kind != HOVER
-        ],
-        "Mean over rotors": [(point, sizes) for point in points],
-        LEFT_OUT: [(point, left[point.rotor]) for point in points],
+        "Mean over rotors, hover": [pair for pair in judged if pair[0].kind == HOVER],
+        "Mean over rotors, forward flight": [pair for pair in judged if pair[0].kind != HOVER],
+        LEFT_OUT: judged,
+        "Mean over rotors, all of them in the fit": [(point, sizes) for point in points],
     }
     for name, mine in means.items():
-        held = coverage(mine)
-        rows.append(
-            words.row(name, f"{_percent(held)} in the bands of 50, 68 and 90 %", held[1], 0.05)
-        )
+        shown = f"{_percent(coverage(mine))} in the bands of 50, 68 and 90 %"
+        rows.append(words.row(name, shown, coverage(mine)[1], 0.05))
     (low_i, low_0), (high_i, high_0) = (
         end(list(left.values()), axis=0) for end in (np.min, np.max)
     )
@@ -213,7 +209,19 @@ def doubt_set() -> TrustSet:
         induced=f"{100 * sizes[0]:g}", profile=f"{100 * sizes[1]:g}", rotors=len(left),
         others=f"{100 * low_i:.0f} to {100 * high_i:.0f} % and {100 * low_0:.0f} to {100 * high_0:.0f} %",
     )  # fmt: skip
-    return words.page(rows[-1].shown, rows, (chart,), text=(text, *words.text[1:], assumed_table()))
+    error = next(row.shown for row in rows if row.what == LEFT_OUT)
+    return words.page(error, rows, (chart,), text=(text, *words.text[1:], assumed_table()))
+
+
+def _shown(points: Sequence[tuple[PointAndBand, Sequence[float]]], over: Sequence[float]) -> str:
+    """The mean error of some powers, how many lie within their band, and the mean band."""
+    errors = [1.0 / (1.0 + point.error) - 1.0 for point, _ in points]
+    bands = [abs(point.error / ratio) for (point, _), ratio in zip(points, over, strict=True)]
+    inside = sum(abs(ratio) <= 1.0 for ratio in over)
+    return (
+        f"{100 * np.mean(errors):+.0f} % on average, {inside} of {len(points)} within "
+        f"± {100 * np.mean(bands):.0f} % ({_percent(coverage(points))})"
+    )
 
 
 def _percent(shares: Iterable[float]) -> str:
