@@ -1,6 +1,5 @@
 """How far a rotor trims: what is too much stall, and the mass and speed up to which there is less of it."""
 
-import math
 from dataclasses import replace
 
 from scipy.optimize import brentq
@@ -26,24 +25,16 @@ _LEAST_POWER_SPEED = 0.15
 """Advance ratio from which the largest speed is looked for: the least power is near it."""
 
 
-def stall_limit(problem: Problem) -> float:
-    """Stalled share of the lift's moment, Σ r dT, beyond which trims do not count."""
-    by_document = problem.disk.fit_range is not None or problem.design.models.document_losses
-    return math.inf if by_document else MOST_STALLED
+def too_stalled(found: Analysis) -> bool:
+    """Whether stalled sections carry more than `MOST_STALLED` of the lift's moment, in every preset.
 
-
-def too_stalled(found: Analysis, limit: float) -> bool:
-    """Whether stalled sections carry more than `limit` of the lift's moment.
-
-    Fields over the whole disk are made for it only where the share on the azimuths of the trim is within
-    `SHARE_ERROR` of the limit.
+    A section stalls where its own lift curve does. The curve of the document's polynomials does so within the range to
+    which they were fitted, and all angles beyond that range are beyond stall. Fields over the whole disk are made only
+    where the share on the azimuths of the trim is within `SHARE_ERROR` of the limit.
     """
-    near = limit - SHARE_ERROR
-    return (
-        limit < math.inf
-        and found.linear.stalled_moment > near
-        and found.solution.stalled_moment > limit
-    )
+    if found.linear.stalled_moment <= MOST_STALLED - SHARE_ERROR:
+        return False
+    return found.solution.stalled_moment > MOST_STALLED
 
 
 def largest(solution: Solution, options: SolverOptions) -> tuple[float | None, float | None]:

@@ -14,7 +14,7 @@ from rotor.trim.forward import first_guess, trim_along, trim_on_course
 from rotor.trim.hover import hover
 from rotor.trim.low_speed import trim_problem, vortex_ring
 from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, newton
-from rotor.trim.reach import largest, stall_limit, too_stalled
+from rotor.trim.reach import largest, too_stalled
 from rotor.trim.secant import steps_ahead
 from rotor.trim.solution import Solution, Status
 from rotor.trim.validity import MOST_STALLED, stalled_sentence
@@ -69,11 +69,7 @@ def analyse(
     found = _trim_branch(require_design(design), start, options, freedoms)
     solution = replace(found.solution, before=_begun(design, start))
     found = Analysis(solution, found.linear)
-    if (
-        not solution.converged
-        or design.hovering
-        or not too_stalled(found, stall_limit(found.linear.problem))
-    ):
+    if not solution.converged or design.hovering or not too_stalled(found):
         return found
     # Stalled sections carry more of the lift's moment than on rotors that were compared with measurement.
     ends = largest(solution, options) if options.remedy else (None, None)
@@ -96,7 +92,7 @@ def _trim_branch(
     guess = guess_of(design, start)
     if design.hovering:
         return assemble(hover(problem, guess, options), begin)
-    result = trim_on_course(problem, guess, options, stall_limit(problem))
+    result = trim_on_course(problem, guess, options, MOST_STALLED)
     found = assemble(result, begin)
     if (
         design.condition.stand is not None
@@ -104,13 +100,13 @@ def _trim_branch(
         or not (result.converged and is_suspect_branch(found))
     ):
         return found
-    return _least_of_branches(found, stall_limit(problem), options)
+    return _least_of_branches(found, options)
 
 
-def _least_of_branches(found: Analysis, most_stalled: float, options: SolverOptions) -> Analysis:
+def _least_of_branches(found: Analysis, options: SolverOptions) -> Analysis:
     """Of a trim and one led from easier conditions that of less power; a rotor deep in stall has several."""
     ahead = (
-        None if options.asked_to_stop else trim_along(found.linear.problem, options, most_stalled)
+        None if options.asked_to_stop else trim_along(found.linear.problem, options, MOST_STALLED)
     )
     if ahead is None:
         return found
@@ -125,7 +121,7 @@ def _least_of_branches(found: Analysis, most_stalled: float, options: SolverOpti
 
 def is_suspect_branch(found: Analysis) -> bool:
     """Whether there is so much stall, or so little power, that it may not be the trim of least power."""
-    return not found.solution.converged or too_stalled(found, MOST_STALLED)
+    return not found.solution.converged or too_stalled(found)
 
 
 def guess_of(design: Design, start: Start) -> Guess | None:

@@ -176,6 +176,22 @@ def test_a_start_deep_in_stall_comes_back():
     assert_allclose(warm.power.total, solve(DEEP_STALL).power.total, rtol=1e-6)
 
 
+@pytest.mark.parametrize("preset", PRESETS)
+def test_no_rotor_trims_beyond_an_altitude_at_which_it_is_refused(preset: str):
+    """Above the altitude where the largest lift ends, the equations balance again at four times the power."""
+    trims = [
+        solve(make_design(rotor="gazelle", preset=preset, inflow="pitt-peters", mu=0.1951, mass_kg=2579.5,
+                          trim="thrust", altitude_m=altitude))
+        for altitude in range(3_900, 6_400, 400)
+    ]  # fmt: skip
+    converged = [trim.converged for trim in trims]
+    assert converged == sorted(converged, reverse=True)
+    assert converged[0]
+    assert not converged[-1]
+    # The state that balances again is met: the rule refuses it, not Newton's method.
+    assert trims[-1].stalled_moment > MOST_STALLED
+
+
 def test_attached_flow_is_solved_without_a_further_pass(monkeypatch: pytest.MonkeyPatch):
     def never(*_: object) -> None:
         raise AssertionError("continuation was not needed")
