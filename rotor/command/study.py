@@ -111,9 +111,9 @@ def report(results: Results, shown: dict[str, Any]) -> str:
             f"what {least} depends on{so_far}: share of its variance; mean where that is least … most",
         ]
         for row in shown["sensitivities"]:
-            least = f"{value(row['least'])} at {_text(row['least_at'])}"
-            most = f"{value(row['most'])} at {_text(row['most_at'])}"
-            lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {least} … {most}")
+            low = f"{value(row['least'])} at {_text(row['least_at'])}"
+            high = f"{value(row['most'])} at {_text(row['most_at'])}"
+            lines.append(f"  {row['axis']:<20}{100 * row['share']:6.1f} %   {low} … {high}")
         if results.sampled and results.good.sum() < _ENOUGH_POINTS:
             points = _count(int(results.good.sum()), "point")
             lines.append(

@@ -32,6 +32,8 @@ class TestMasks:
             ("at http://127.0.0.1:8080/", "at http://127.0.0.1:41233/"),
             ("<object at 0x7f12ab34cd56>", "<object at 0x7f99ab34cd00>"),
             ("made 2026-11-30 04:51", "made 2024-01-02 23:00"),
+            ("from commit c694ad48", "from commit 9b82d63c+"),
+            ('{"commit": "c694ad48"}', '{"commit": "9b82d63c"}'),
             ("30 November 2026, 07:40", "1 December 2026, 00:01"),
             ("Progress(start=1, elapsed=0.33927, n=2)", "Progress(start=1, elapsed=1.2e-05, n=2)"),
         ],
@@ -73,6 +75,11 @@ class TestValues:
         assert exact(field) != exact(field.astype(np.float32))
         assert exact(field) != exact(field.reshape(5, 10))
         assert exact(0.1 + 0.2) != exact(0.3)
+
+    def test_a_file_of_text_is_equal_without_the_commit_that_wrote_it(self):
+        assert exact(b"# commit c694ad48\n1,2\n") == exact(b"# commit 9b82d63c\n1,2\n")
+        assert exact(b"# commit c694ad48\n1,2\n") != exact(b"# commit c694ad48\n1,3\n")
+        assert exact(b"\xff\x001") != exact(b"\xff\x002")
 
     def test_a_record_has_a_line_for_each_field_and_times_are_masked(self):
         lines = dict(flattened("a", {"b": Named("c", (1.0, 2.0)), "d": {}}))
@@ -124,6 +131,10 @@ class TestDifferences:
         assert "text: 1 changed, 1 gone, 1 new" in words
         assert all(name in words for name in ("b", "gone: c", "new: d"))
         assert not difference("text", {"a": "1"}, {"a": "1"})
+
+    def test_a_value_with_a_separator_of_its_own_is_one_value(self, tmp_path: Path):
+        (tmp_path / "text.txt").write_text("a: 1\x852\nb: 3\n", "utf-8")
+        assert read(tmp_path, "text") == {"a": "1\x852", "b": "3"}
 
     def test_the_first_character_that_differs_is_marked(self):
         there, here = first_difference(f"{'x' * 100} 3.0 kW", f"{'x' * 100} 3.1 kW")

@@ -509,6 +509,17 @@ def test_a_small_sample_is_not_reported_as_an_effect():
     )
 
 
+def test_show_gives_every_effect_in_the_unit_of_what_is_least():
+    grid = np.array(np.meshgrid([0.0, 1.0], [0.0, 1.0], indexing="ij")).reshape(2, -1)
+    results = results_of(x=grid[0], y=grid[1], power_total_w=1e6 + 2e5 * grid[0] + 1e5 * grid[1])
+    words = {"message": None, "twist": "linear:-8", "caveats": None}
+    results.columns.update({name: np.full(4, word, dtype=object) for name, word in words.items()})
+    results.about["units"] = {"power_total_w": "W"}
+    said = report(results, record(results))
+    effects = [line for line in said.splitlines() if " % " in line]
+    assert [line.count(" kW at ") for line in effects] == [2, 2]
+
+
 def test_show_counts_the_caveats_of_points():
     """Those of the points by name, the most frequent first, and where their sentences are."""
     results = results_of(mu=[0.1, 0.2, 0.3, 0.4], power_total_w=[4.0, 1.0, 2.0, 3.0])

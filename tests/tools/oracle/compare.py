@@ -40,7 +40,8 @@ class Difference:
 def read(folder: Path, kind: str) -> dict[str, str]:
     """The values of a kind by name, as a run wrote them."""
     values = dict[str, str]()
-    for line in (folder / f"{kind}.txt").read_text("utf-8").splitlines():
+    # Not by splitlines, which would also break at separators within a value.
+    for line in (folder / f"{kind}.txt").read_text("utf-8").split("\n")[:-1]:
         name, _, text = line.partition(": ")
         values[name] = text
     return values

@@ -33,7 +33,7 @@ _PATTERNS: Sequence[tuple[re.Pattern[str], str]] = (
     (re.compile(r"\b20\d\d-\d\d-\d\d([T ]\d\d:\d\d(:\d\d)?([+-]\d\d:?\d\d|Z)?)?"), MASK),
     (re.compile(rf"\b\d\d? (?:{_MONTHS}) 20\d\d(?:, \d\d:\d\d)?"), MASK),
     # The commit of a checkout, which a plus marks where files differ from it.
-    (re.compile(r"\b(commit|git) [0-9a-f]{7,40}\+?"), rf"\1 {MASK}"),
+    (re.compile(r'\b(commit|git)((?:\\?":)? \\?"?)[0-9a-f]{7,40}\+?'), rf"\1\2{MASK}"),
     *(
         (re.compile(rf"(?i)\b({package}\D{{1,4}}){re.escape(version(package))}"), rf"\1{MASK}")
         for package in _VERSIONED

@@ -145,8 +145,17 @@ def exact(value: Any) -> str:
     if isinstance(value, np.ndarray):
         return _array(value)
     if isinstance(value, bytes | bytearray | memoryview):
-        return f"{len(value)} bytes {_digest(bytes(value))}"
+        return _bytes(bytes(value))
     return json.dumps(_plain(value), ensure_ascii=False)
+
+
+def _bytes(data: bytes) -> str:
+    """Length and digest of a file's bytes; of text the digest alone, without what differs from run to run."""
+    try:
+        text = data.decode("utf-8")
+    except UnicodeDecodeError:
+        return f"{len(data)} bytes {_digest(data)}"
+    return f"text {_digest(masked(text).encode('utf-8'))}"
 
 
 def _plain(value: Any) -> Any:
