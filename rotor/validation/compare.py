@@ -70,8 +70,8 @@ LABELS = {
     "tip_mach": "Tip Mach number",
 }
 """Labels of axes and columns."""
-MET_BY_CHANCE = 0.95
-"""How often a model without error meets a target."""
+CONFIDENCE = 0.95
+"""Part of the tests in which a model without error meets its target."""
 ALSO = {"xv15-forward-15deg": ("uniform",)}
 """Inflow models that the trust page shows beside that of `flight`, where they give a trim."""
 
@@ -108,7 +108,7 @@ class MeasuredSet:
     scatter_law: dict[str, int] = field(default_factory=dict[str, int])
     """Degree of the smooth law of the points, by column: what they scatter about it is their scatter."""
     scatter_source: str = ""
-    """Who states the scatter; empty where nobody does, or it is that about a law."""
+    """Where the scatter comes from; empty where that is not known, or it is that about a law."""
     judged: dict[str, tuple[float, float]] = field(default_factory=dict[str, tuple[float, float]])
     """Ranges of columns within which points count, for a reason that lies in the data."""
     indicative: bool = False
@@ -157,10 +157,22 @@ class MeasuredSet:
         """
         if self.indicative or not (self.scatter_law or self.scatter_source):
             return None
+        half = 0.5 * sum(map(self.counts, self.points))
+        return self.rms_scatter * math.sqrt(float(gammaincinv(half, CONFIDENCE)) / half)
+
+    @property
+    def rms_scatter(self) -> float:
+        """Root mean square of the scatter of the points that count, as a part of what is measured [-]."""
         counted = [point for point in self.points if self.counts(point)]
-        parts = [self.scatter_of(point) / abs(point[self.quantity]) for point in counted]
-        half = 0.5 * len(parts)
-        return rms(parts) * math.sqrt(float(gammaincinv(half, MET_BY_CHANCE)) / half)
+        return rms([self.scatter_of(point) / abs(point[self.quantity]) for point in counted])
+
+    @property
+    def scatter_words(self) -> str:
+        """A sentence on the scatter that the target follows from; empty where there is no target."""
+        if self.largest_rms is None:
+            return ""
+        source = "about a smooth law of them" if self.scatter_law else self.scatter_source
+        return f"The measured points scatter by {100.0 * self.rms_scatter:.1f} %, {source}."
 
     @property
     def varied(self) -> tuple[str, ...]:
@@ -267,7 +279,7 @@ class Comparison:
 
     @property
     def worst_percent(self) -> float | None:
-        """The error of the largest size among the judged points that trim."""
+        """The error of the largest size among the points that count and trim."""
         return max(
             (one.error_percent for one in self.counting if one.error_percent is not None),
             key=abs,
@@ -403,7 +415,7 @@ def _part(words: SetDescription, name: str) -> _Part:
     comparisons = [compare(measured)]
     comparisons += [compare(measured, inflow) for inflow in ALSO.get(name, ())]
     rows = [_row(words, comparison) for comparison in comparisons]
-    text = [_constant(measured), measured.note]
+    text = [_constant(measured), measured.scatter_words, measured.note]
     if measured.given[0] == "collective_deg":
         by_pitch, missing = zip(*_by_pitch(words, comparisons[0]), strict=True)
         rows += by_pitch

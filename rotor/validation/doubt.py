@@ -200,8 +200,9 @@ def doubt_set() -> TrustSet:
         "Mean over rotors, all of them in the fit": [(point, sizes) for point in points],
     }
     for name, mine in means.items():
-        shown = f"{_percent(coverage(mine))} in the bands of 50, 68 and 90 %"
-        rows.append(words.row(name, shown, coverage(mine)[1], 0.05))
+        held = coverage(mine)
+        shown = f"{_percent(held)} in the bands of 50, 68 and 90 %"
+        rows.append(words.row(name, shown, held[1], 0.05))
     (low_i, low_0), (high_i, high_0) = (
         end(list(left.values()), axis=0) for end in (np.min, np.max)
     )
@@ -214,7 +215,7 @@ def doubt_set() -> TrustSet:
 
 
 def _shown(points: Sequence[tuple[PointAndBand, Sequence[float]]], over: Sequence[float]) -> str:
-    """The mean error of some powers, how many lie within their band, and the mean band."""
+    """The mean error of some powers, how many lie within their band, and the mean band; over: errors over bands."""
     errors = [1.0 / (1.0 + point.error) - 1.0 for point, _ in points]
     bands = [abs(point.error / ratio) for (point, _), ratio in zip(points, over, strict=True)]
     inside = sum(abs(ratio) <= 1.0 for ratio in over)

@@ -20,12 +20,13 @@ from rotor.airfoil.section_table import SectionTable
 from rotor.airfoil.sections import load_section
 from rotor.airfoil.stall_delay import delay_gain, delayed_lift, delayed_stall, fully_delayed
 from rotor.airfoil.stall_onset import POSITIVE, SLOPE, stall_onset
+from rotor.design.design import with_models
 from rotor.files.design_file import design_from_record
 from rotor.optimisation import CONCEPTS
 from rotor.optimisation.objective import at_condition, evaluate_objective
 from rotor.support.arrays import Array
 from rotor.trim import SolverOptions
-from rotor.validation.compare import compare, design_at, load_set
+from rotor.validation.compare import compare_point, design_at, load_set
 from rotor.validation.trust import rms
 from tests.rotor.aero.test_dynamic_stall import data as stall_data
 from tests.rotor.aero.test_dynamic_stall import followed, remembered
@@ -396,14 +397,20 @@ def test_the_energy_closes(rotor: str, mu: float):
 
 @pytest.mark.slow
 def test_hover_of_the_xv15_is_nearer_to_the_measured_one():
-    """The measured trend outside this code: power in hover up to the largest thrust, where wide roots keep lifting."""
+    """The measured power in hover, outside this code: smaller errors in the middle, and fewer refused thrusts."""
     measured = load_set("xv15-hover")
-    found = compare(measured, "annulus")
-    # Below C_T 0.004 friction decides, above 0.013 stall that grows outboard, where rotation helps little.
-    middle = [
-        point.error_percent
-        for point in found.points
-        if point.error_percent is not None and 0.004 <= point.given["ct"] <= 0.013
-    ]
-    assert rms(middle) < 1.4
-    assert found.lost <= 4
+    blade = make_design(rotor="xv15")
+    errors: list[float] = []
+    refused: list[int] = []
+    for base in (blade, with_models(blade, stall_delay=False)):
+        points = [compare_point(measured, point, base) for point in measured.points]
+        # Below C_T 0.004 friction decides, above 0.013 stall that grows outboard, where rotation helps little.
+        middle = [
+            point.error_percent
+            for point in points
+            if point.error_percent is not None and 0.004 <= point.given["ct"] <= 0.013
+        ]
+        errors.append(rms(middle))
+        refused.append(sum(point.computed is None for point in points))
+    assert errors[0] < 1.4 < 1.8 < errors[1]
+    assert refused[0] <= 4 < 7 <= refused[1]

@@ -324,8 +324,11 @@ def test_the_scatter_about_a_law_is_that_of_drawn_points():
     with pytest.raises(ValueError, match="3 points do not show their scatter about 3 terms"):
         scatter_about_law(points[:3], "cp", {"ct": 2})
     laws = [measured for measured in map(load_set, SETS) if measured.scatter_law]
-    assert len(laws) == 7
+    assert len(laws) == 9
     for measured in laws:
+        terms = 1 + sum(measured.scatter_law.values())
+        if sum(map(measured.counts, measured.points)) - terms < 4:
+            continue  # Too few points to tell one law from another.
         first = next(iter(measured.scatter_law))
         higher = replace(
             measured, scatter_law={**measured.scatter_law, first: measured.scatter_law[first] + 1}
