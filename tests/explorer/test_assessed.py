@@ -60,7 +60,7 @@ from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.vibration import with_harmonics
-from rotor.trim.doubt import change_decimals, sureness
+from rotor.trim.doubt import ESTIMATED, RoundedPair, rounded_pair, sureness
 from rotor.trim.solve import solve
 from tests.actuate import actuate, asked, done, solved, told, worked
 
@@ -231,9 +231,13 @@ def judged(against: Against, id: str = "MFC_P1") -> Verdict:
 
 
 def as_said(watts: float, band: float | None) -> str:
-    digits = 0 if abs(watts) >= 9950.0 else 1
-    digits = digits if band is None else change_decimals(1e-3 * watts, 1e-3 * band, digits)
-    return f"{abs(1e-3 * watts):.{digits}f}"
+    if band is None:
+        return f"{abs(1e-3 * watts):.{0 if abs(watts) >= 9950.0 else 1}f}"
+    return printed_size(rounded_pair(1e-3 * watts, 1e-3 * band))
+
+
+def printed_size(pair: RoundedPair) -> str:
+    return f"{abs(pair.change):.{pair.decimals}f}"
 
 
 def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> dict[str, str]:
@@ -482,7 +486,9 @@ def check_bands(shown: Mapping[str, Any], *, sourced: bool) -> tuple[int, int]:
         assert size(low) <= size(value) <= size(high), (value, low, high)
     line = shown.get("line")
     pieces = {piece.part: piece for piece in line.pieces} if line is not None else {}
-    word = pieces["sure"].text.removeprefix(", ") if "sure" in pieces else ""
+    sure = pieces["sure"].text.removeprefix(", ") if "sure" in pieces else ""
+    word, _, reason = sure.partition(", ")
+    assert reason in ("", ESTIMATED)
     texts |= {(pieces["moved"].text, pieces["sure-band"].text[3:], word)} if word else set()
     if "moved" in pieces:
         assert (pieces["moved"].kind != "") == (word in ("sure", "likely"))
