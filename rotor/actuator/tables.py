@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rotor.actuator.catalogue import STEPS, actuators, find_actuator
-from rotor.actuator.kind import Actuator
+from rotor.actuator.kind import MOST_BOUNDS, Actuator
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import WANTED_SHARE, BreakEven
 from rotor.actuator.section import HostBlade, Placement, default_placement
@@ -136,7 +136,7 @@ def _comparison(verdict: Verdict) -> Row:
         "blade": installed.host.label,
         "needed °": f"{math.degrees(verdict.required):.2f}",
         "nominal °": f"{math.degrees(verdict.attainable):.2f}",
-        "needed/nominal": f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
+        "needed/nominal": _ratio(verdict),
         "voltages V": "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages)
         or NONE,
         "mass kg": f"{installed.masses.aircraft:.0f}",
@@ -152,6 +152,13 @@ def _comparison(verdict: Verdict) -> Row:
         else sureness(verdict.net_saving, verdict.net_band, sourced=verdict.sourced),
         "limits exceeded": ", ".join(limit.name for limit in verdict.broken) or "none",
     }
+
+
+def _ratio(verdict: Verdict) -> str:
+    """Twist needed over that of the whole drive."""
+    if verdict.ratio > MOST_BOUNDS:
+        return f"> {MOST_BOUNDS:.0f}"
+    return f"{verdict.ratio:.2f}"
 
 
 def _banded(verdict: Verdict, name: str, saving: float) -> str:

@@ -443,6 +443,10 @@ def _reach(verdict: Verdict) -> str:
     what = f"{installed.actuator.name} ({installed.count}, {installed.host.label})"
     first, second = (flight_text(mu) for mu in verdict.baseline.pair.advance_ratios)
     need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
+    if installed.too_weak:
+        return (
+            f"{what} moves 0.00°: far too weak for the {need:.1f}° needed from {first} to {second}."
+        )
     can = "can supply" if verdict.feasible else "cannot supply"
     return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({nominal:.1f}° nominal)."
 
