@@ -17,8 +17,8 @@ every input and model that was varied alone, its size did not.
 more than one linear twist that follows speed. One good fixed twist saves 0.3 to 0.4 % against −16°.
 
 **Which actuator pays?** None that changes steady twist on the blade as it is: the best of 24 combinations of actuator
-and twist law costs 23 ± 9 kW more than the best fixed twist (likely): 14 kW for the twist of the blade as built, 9 kW
-for its mass. Unlimited twist would gain 3 kW.
+and twist law costs 23 ± 9 kW more than the best fixed twist (likely, from estimated data): 14 kW for the
+twist of the blade as built, 9 kW for its mass. Unlimited twist would gain 3 kW.
 
 For the uncertainty of each number, see :doc:`uncertainty </guide/doubt>`. A difference between two twists is known
 better than power itself, although inflow models disagree about it.

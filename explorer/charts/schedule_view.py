@@ -17,7 +17,7 @@ from rotor.optimisation import Schedule, ScheduleOptimum, SchedulePlan
 from rotor.support.chart import Axis, Chart, Line, Points
 from rotor.support.markup import Content, Markup, tag
 from rotor.support.user_input import csv_text
-from rotor.trim.doubt import Doubt, change_decimals
+from rotor.trim.doubt import Doubt, rounded_pair
 
 _COLUMNS = (
     "hours", "as_it_is_kw", "best_kw", "saving_percent", "saving_doubt_percent", "sureness", "fixed_kw",
@@ -152,9 +152,10 @@ def _percent(band: Doubt | None) -> Content:
     (saved, within), word = _saving(band), band and band.sureness
     if not word:
         return number(saved, 2)
-    digits, kind = change_decimals(saved, within), change_kind(-saved, word)
+    pair = rounded_pair(saved, within)
+    kind = change_kind(-saved, word)
     words = (
-        f"{number(saved, digits)} ± {number(within, digits)}",
+        f"{number(pair.change, pair.decimals)} ± {number(pair.band, pair.decimals)}",
         tag("br"),
         tag("span.rx-small", word),
     )
@@ -182,7 +183,7 @@ def _saved(power: float, band: Doubt | None, units: Units) -> str:
     """A saving [W]; with its band once that is known."""
     if band is None or band.change_band is None:
         return units.watts(power, 1)
-    return banded(power, band.change_band, units, least=1)
+    return banded(power, band.change_band, units)
 
 
 def csv_of(progress: ScheduleProgress) -> bytes:

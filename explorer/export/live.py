@@ -32,7 +32,7 @@ from rotor import Solution
 from rotor.design import TwistLaw
 from rotor.support.arrays import Array
 from rotor.support.markup import Markup, group, tag
-from rotor.trim.doubt import LEAST_REPORTED, LIKELY, SURE, decimals
+from rotor.trim.doubt import LEAST_REPORTED, LIKELY, MOST_DECIMALS, MOST_OF_SMALL, SURE
 
 _FIELDS = "Angle of attack", "Induced inflow λi", "Thrust dT/dr"
 _GRID = 36, 120
@@ -261,7 +261,7 @@ def _model(made: Fitted, drawn: list[_FittedField], units: Units) -> dict[str, A
         "longest": unit.of(max(1.0, *map(float, _most(made)))),
         "power": {name: _short(unit.of(1.0) * rows) for name, rows in made.power.items()},
         "doubt": {"power": list(map(_short, power)), "change": list(map(_short, change)), "least": least,
-                  "error": error, "digits": min(2, decimals(max(error, least))),
+                  "error": error, "decimals": (MOST_DECIMALS, MOST_OF_SMALL),
                   "words": [[SURE, "sure"], [LIKELY, "likely"], [0.0, "unclear"]]},
         "inset": _inset(made),
         "disk": {

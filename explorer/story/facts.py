@@ -63,11 +63,8 @@ class Number:
         value = self.value
         match self.kind:
             case "power" | "change" | "percent" if self.band:
-                unit, least = (Unit("%", 0.01), 1) if self.kind == "percent" else (units, 0)
-                least = digits_of(value, units) if self.kind == "power" else least
-                text = banded(
-                    value, self.band, unit, least=least, sign=self.kind == "change"
-                ).partition(":")[0]
+                unit = Unit("%", 0.01) if self.kind == "percent" else units
+                text = banded(value, self.band, unit, sign=self.kind == "change").partition(":")[0]
             case "power" | "change":
                 text = units.watts(value, digits_of(value, units), sign=self.kind == "change")
             case "percent" | "fine" | "signed":

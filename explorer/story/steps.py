@@ -165,9 +165,7 @@ def compared_quantities(
         moved, within = getattr(after, name) - getattr(before, name), bands.get(name)
         if not within or max(abs(unit.of(moved)), unit.of(within)) < 0.5 * 10.0**-least:
             return Figure(unit.text(moved, least, sign=True), "" if bands else _BLANK)
-        words = banded(
-            moved, within, unit, least=least, sign=True, sourced=sure is None or sure[1].sourced
-        )
+        words = banded(moved, within, unit, sign=True, sourced=sure is None or sure[1].sourced)
         size, _, rest = words.partition(" ± ")
         return Figure(f"{size} {unit.symbol}", f"± {rest.replace(':', ',')}")
 

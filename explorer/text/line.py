@@ -16,7 +16,7 @@ from explorer.text.readout import change_sizes, fineness
 from rotor import Design, Solution
 from rotor.design.quantity import Slider
 from rotor.support.user_input import shorten
-from rotor.trim.doubt import Doubt, decimals, sureness
+from rotor.trim.doubt import Doubt, decimals, sure_words, sureness
 from rotor.validation import coverage
 
 _STANDS = {
@@ -215,6 +215,7 @@ def change_pieces(
     if band is None and not any(digit in size for digit in "123456789"):
         return [LinePiece(f": no change from {than}", "against")]
     word = "" if band is None else sureness(change, band, sourced=sourced)
+    sure = "" if band is None else sure_words(change, band, sourced=sourced)
     kind: Kind = (
         "" if word in ("", "unclear") else "bad" if change > 0.0 else "good" if built else ""
     )
@@ -225,7 +226,7 @@ def change_pieces(
         LinePiece(f" {units.power[0].symbol}", WIDE, kind),
         LinePiece(" more" if change > 0.0 else " less", "more", kind),
         LinePiece(f" than {than}{note}", "against"),
-        *([LinePiece(f", {word}", "sure", "", not known)] if word else []),
+        *([LinePiece(f", {sure}", "sure", "", not known)] if sure else []),
     ]
 
 

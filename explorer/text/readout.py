@@ -18,7 +18,7 @@ from rotor.actuator import InstalledActuator, Verdict
 from rotor.actuator.verdict import flight_text
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.markup import Content, Markup, tag
-from rotor.trim.doubt import Doubt, change_decimals, sureness
+from rotor.trim.doubt import MOST_OF_SMALL, Doubt, rounded_pair, sure_words, sureness
 from rotor.trim.solution import ElasticTwist
 
 PART_TITLES = {
@@ -147,10 +147,10 @@ def part_change(
     within = bands.get(name)
     if not within or max(abs(unit.of(change)), unit.of(within)) < 0.05:
         return number(unit.of(change), digits, sign=True), ""
-    size, word = banded(
-        change, within, units, sign=True, sourced=band is None or band.sourced
-    ).split(": ")
-    return size.removesuffix(f" {unit.symbol}"), word
+    pair = rounded_pair(unit.of(change), unit.of(within))
+    size = number(pair.change, pair.decimals, sign=True)
+    word = sureness(change, within, sourced=band is None or band.sourced)
+    return f"{size} ± {number(pair.band, pair.decimals)}", word
 
 
 def fineness(power: PowerBudget, units: Units = SI) -> int:
@@ -403,10 +403,12 @@ def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | Non
 
 
 def digits_of(power: float, units: Units, band: float | None = None) -> int:
-    """Decimals of a power [W] in the main unit, of a change also beside its band: models do not agree to a tenth."""
+    """Decimals of a power [W] in the main unit, of a change beside its band those of the pair: models do not agree to
+    a tenth."""
     unit = units.power[0]
-    digits = 0 if round(abs(unit.of(power)), 1) >= 10.0 else 1
-    return digits if band is None else change_decimals(unit.of(power), unit.of(band), digits)
+    if band is not None:
+        return rounded_pair(unit.of(power), unit.of(band)).decimals
+    return 0 if round(abs(unit.of(power)), 1) >= 10.0 else 1
 
 
 class BalanceRow(NamedTuple):
@@ -448,11 +450,19 @@ def balance(
     return [
         BalanceRow(
             name, value, number(shown, digits, sign=True), unit.of(sure),
-            f"{name} {needs_words(-unit.size * value, sure, units, sourced)}" if sure else "",
+            _row_words(name, value, sure, units, sourced),
             change_kind(value, sureness(value, unit.of(sure)) if value and (sure or name == "drive") else None),
         )
         for name, value, shown, sure in rows
     ]  # fmt: skip
+
+
+def _row_words(name: str, value: float, band: float, units: Units, sourced: bool) -> str:
+    """What a part needs, in the main unit, with its band [W]; empty where the band rounds to nothing."""
+    unit = units.power[0]
+    if not round(unit.of(band), MOST_OF_SMALL):
+        return ""
+    return f"{name} {needs_words(-unit.size * value, band, units, sourced)}"
 
 
 def needs(verdict: Verdict, units: Units) -> str:
@@ -466,17 +476,21 @@ def needs(verdict: Verdict, units: Units) -> str:
 
 def change_sizes(change: float, band: float | None, units: Units) -> tuple[str, str]:
     """A change of power [W] without its sign, and its band [W]: `28`, ` ± 3`; empty without a band."""
-    unit, digits = units.power[0], digits_of(change, units, band)
-    return number(
-        abs(unit.of(change)), digits
-    ), "" if band is None else f" ± {number(unit.of(band), digits)}"
+    unit = units.power[0]
+    size = abs(unit.of(change))
+    if band is None:
+        return number(size, digits_of(change, units)), ""
+    pair = rounded_pair(size, unit.of(band))
+    return number(pair.change, pair.decimals), f" ± {number(pair.band, pair.decimals)}"
 
 
 def needs_words(net: float, band: float | None, units: Units, sourced: bool = True) -> str:
     """A net saving [W] in words, with its band [W]: `needs 28 ± 3 kW more (sure)`. `sourced`: as of `sureness`."""
     size, symbol = "".join(change_sizes(net, band, units)), units.power[0].symbol
     words = f"saves {size} {symbol}" if net > 0.0 else f"needs {size} {symbol} more"
-    return words if band is None else f"{words} ({sureness(net, band, sourced=sourced)})"
+    if band is None:
+        return words
+    return f"{words} ({sure_words(net, band, sourced=sourced)})"
 
 
 _FUEL = Unit("kg/h of fuel", 1.0 / 3600.0)
@@ -487,15 +501,15 @@ def banded(
     band: float,
     units: Units | Unit,
     *,
-    least: int = 0,
     sign: bool = False,
     sourced: bool = True,
 ) -> str:
     """A change, of power in these units [W], with its band and whether its sign is known: `4.2 ± 1.8 kW: sure`."""
     unit = units if isinstance(units, Unit) else units.power[0]
-    digits = change_decimals(unit.of(change), unit.of(band), least)
-    size, within = number(unit.of(change), digits, sign=sign), number(unit.of(band), digits)
-    return f"{size} ± {within} {unit.symbol}: {sureness(change, band, sourced=sourced)}"
+    pair = rounded_pair(unit.of(change), unit.of(band))
+    size = number(pair.change, pair.decimals, sign=sign)
+    within = number(pair.band, pair.decimals)
+    return f"{size} ± {within} {unit.symbol}: {sure_words(change, band, sourced=sourced)}"
 
 
 def kilograms(mass: float) -> str:
@@ -531,7 +545,7 @@ def fuel_words(verdict: Verdict) -> str:
     saved, band = verdict.fuel_saving, verdict.fuel_band
     if saved is None or band is None:
         return "fuel flow unknown"
-    return banded(-saved, band, _FUEL, least=1, sign=True, sourced=verdict.sourced)
+    return banded(-saved, band, _FUEL, sign=True, sourced=verdict.sourced)
 
 
 def pair_words(verdict: Verdict) -> str:

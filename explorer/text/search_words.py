@@ -69,7 +69,7 @@ def _moved(change: float, optimum: Optimum | None, units: Units) -> str:
     return (
         units.watts(change, 1, sign=True)
         if band is None
-        else banded(change, band, units, least=1, sign=True)
+        else banded(change, band, units, sign=True)
     )
 
 

@@ -17,7 +17,9 @@ from explorer.views.actuated import (
 )
 from explorer.views.dial_answer import FittedBlade, peak_of
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
-from rotor.actuator.kind import Limit
+from explorer.views.pay import mass_that_pays
+from rotor.actuator import OtherStroke
+from rotor.actuator.kind import MOST_BOUNDS, Limit
 from rotor.actuator.limits import limits
 from rotor.actuator.verdict import Against
 from rotor.dynamics.structure import structure_data
@@ -36,6 +38,9 @@ def _angle(radians: float) -> str:
 
 
 def _reach(one: ActuatedBlade) -> str:
+    """Both ends of the range of tip twist; empty for an actuator that hardly moves."""
+    if one.installed.too_weak:
+        return ""
     return "…".join(map(_angle, one.inputs.reach(one.installed))).replace("°…", "…")
 
 
@@ -62,36 +67,57 @@ def _gives(one: ActuatedBlade, units: Units) -> str:
 def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
     """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
     total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
-    moves = (
-        f"{total} on board; tip turned by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}."
-    )
+    moves = f"{total} on board; {_moves(one)}."
     forbidden = one.installed.actuator.forbidden
     moves += f" It is {forbidden}." if forbidden else ""
     if flight is not None:
         could = "If it could work, by" if forbidden else "By"
         moves += f" {could} schedule it {_gives(one, units)} over the mission."
     mass = None if verdict is None else verdict.mass_allowed
-    if flight is None or mass is None:
+    if flight is None or mass is None or one.installed.too_weak:
         return moves, ()
     if not mass:
         return moves, ("It would not pay, however light.",)
-    wide = None if one.line is None else one.line.twist_for(one.mass)
-    pays = f"It {'pays' if flight.power < 0.0 else 'would pay'} below ", kilograms(mass)
-    within = (
-        ""
-        if one.line is None
-        else f" (± {kilograms(one.line.band(one.range, mass) / one.line.per_kg)})"
-    )
-    if wide is not None:
-        return moves, (
-            *pays,
-            f"{within} or with a range above ",
+    pays = "pays" if flight.power < 0.0 else "would pay"
+    return moves, _pays_where(one, one.line, mass, pays)
+
+
+def _moves(one: ActuatedBlade) -> str:
+    """The tip twist as set and its range."""
+    if one.installed.too_weak:
+        return "it moves 0.00°: far too weak"
+    return f"tip turned by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}"
+
+
+def _pays_where(
+    one: ActuatedBlade, line: OtherStroke | None, mass: float, pays: str
+) -> tuple[str, ...]:
+    """The mass [kg] and the range with which it pays: words, and every second one a number to drag. A mass within its
+    band is none, and a range far beyond its own is not named."""
+    if line is None:
+        return f"It {pays} below ", kilograms(mass), "."
+    light = mass_that_pays(line, one.range, mass)
+    wide = line.twist_for(one.mass)
+    near = wide is not None and wide <= MOST_BOUNDS * one.range
+    if light is None and wide is not None and near:
+        return (
+            f"It {pays} with a range above ",
             f"{number(math.degrees(wide), 1)}°",
-            ".",
+            "; with its own, no mass is sure to pay.",
         )
-    return moves, (
-        *pays,
-        f"{within}." if one.line is None else f"{within}; no twist pays at {total}.",
+    if light is None:
+        return ("With its range no mass is sure to pay.",)
+    size, band = light
+    if wide is None:
+        return f"It {pays} below ", size, f" (± {band}); no twist pays at {kilograms(one.mass)}."
+    if not near:
+        return f"It {pays} below ", size, f" (± {band})."
+    return (
+        f"It {pays} below ",
+        size,
+        f" (± {band}) or with a range above ",
+        f"{number(math.degrees(wide), 1)}°",
+        ".",
     )
 
 
@@ -113,9 +139,18 @@ def _over(one: ActuatedBlade) -> tuple[tuple[str, ...], tuple[str, ...]]:
 
 def _limit(limit: Limit) -> str:
     digits = 0 if max(limit.value, limit.bound) >= 20.0 else 2
+    if limit.far_above:
+        return _far_above(limit, digits)
     value, bound = (number(end, digits) for end in (limit.value, limit.bound))
     least = "at least " if limit.value < limit.bound else ""
     return f"{limit_words(limit.name)} {value} of {least}{bound} {limit.unit}"
+
+
+def _far_above(limit: Limit, digits: int) -> str:
+    name = limit_words(limit.name)
+    if not limit.bound:
+        return f"no {name}"
+    return f"{name} far above {number(limit.bound, digits)} {limit.unit}"
 
 
 def card(now: PageState) -> dict[str, AssessedPart | None]:

@@ -61,7 +61,7 @@ def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units)
         return f"{power}, yours the same"
     if band is None:
         return f"{power}, yours {number(unit.of(abs(change)), 1)} {unit.symbol} {way}"
-    amount, sure = banded(abs(change), band.change_band or 0.0, units, least=1).rsplit(":", 1)
+    amount, sure = banded(abs(change), band.change_band or 0.0, units).rsplit(":", 1)
     return f"{power}, yours {amount} {way}:{sure}"
 
 

@@ -31,7 +31,7 @@ from rotor.actuator import OtherStroke, Verdict, actuators
 from rotor.actuator.verdict import flight_text
 from rotor.support.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
 from rotor.support.markup import Markup, tag
-from rotor.trim.doubt import sureness
+from rotor.trim.doubt import rounded_pair, sure_words, sureness
 
 SUPPOSED = "i"
 """Name of the supposed actuator in the address, as `4.2,12`: degrees and kilograms."""
@@ -98,7 +98,7 @@ def _kind(one: ActuatedBlade, id: str, units: Units) -> list[Markup]:
         )
         over = f"over its limits in {over}" if over else "within its limits"
         band = verdict.net_band
-        sure = "" if band is None else sureness(net, band, sourced=verdict.sourced)
+        sure = "" if band is None else sure_words(net, band, sourced=verdict.sourced)
         words = "; ".join(filter(None, (actuator.forbidden or over, sure)))
     name = tag("button.rx-link", id.replace("_", " "), data_do="kind", data_value=id, type="button")
     cells = (
@@ -132,11 +132,7 @@ def _stage(now: PageState) -> SupposePart | None:
     if (degrees, mass) == own:
         saving, band, built = -one.over_flight.power, one.over_flight.band, one.over_flight.built
     most, least = line.mass_allowed(twist), line.twist_for(mass)
-    notes = [
-        f"With this range it pays below {_allowed(line, twist)}"
-        if most
-        else "With this range it never pays"
-    ]
+    notes = [_allowed(line, twist, most)]
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
     gives = needs_words(saving, band, units, one.sourced)
     return SupposePart(
@@ -148,12 +144,24 @@ def _stage(now: PageState) -> SupposePart | None:
     )
 
 
-def _allowed(line: OtherStroke, twist: float) -> str:
-    """The mass at which a range of twist breaks even, with its band."""
-    most = line.mass_allowed(twist)
-    return (
-        f"{kilograms(most).removesuffix(' kg')} ± {kilograms(line.band(twist, most) / line.per_kg)}"
-    )
+def _allowed(line: OtherStroke, twist: float, most: float) -> str:
+    """The mass [kg] at which a range of twist breaks even, with its band."""
+    if not most:
+        return "With this range it never pays"
+    pays = mass_that_pays(line, twist, most)
+    if pays is None:
+        return "With this range no mass is sure to pay"
+    size, band = pays
+    return f"With this range it pays below {size.removesuffix(' kg')} ± {band}"
+
+
+def mass_that_pays(line: OtherStroke, twist: float, mass: float) -> tuple[str, str] | None:
+    """The mass [kg] at which a range of twist breaks even, and its band; None where the band holds no mass as well."""
+    band = line.band(twist, mass) / line.per_kg
+    if sureness(mass, band) == "unclear":
+        return None
+    pair = rounded_pair(mass, band)
+    return f"{number(pair.change, pair.decimals)} kg", f"{number(pair.band, pair.decimals)} kg"
 
 
 def _put(degrees: float, mass: float) -> tuple[float, float]:

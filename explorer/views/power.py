@@ -117,7 +117,7 @@ def station_power(now: PageState) -> dict[str, Any]:
     )
     words = unit.text(change, digits, sign=True)
     if within and round(unit.of(change), 1):
-        words = banded(change, within, now.units, least=digits, sign=True).replace(":", ",")
+        words = banded(change, within, now.units, sign=True).replace(":", ",")
     shown = HandPart(
         power=f"{number(unit.of(power.total), digits)}{around} {unit.symbol}",
         change=words,

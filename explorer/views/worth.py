@@ -117,7 +117,7 @@ def worth_row(
     words = (
         f"{value} {units.power[0].symbol}"
         if band is None
-        else banded(change, band, units, least=digits, sign=True)
+        else banded(change, band, units, sign=True)
     )
     less = f"less than {number(0.5 * 10.0**-digits, digits + 1)} {units.power[0].symbol}"
     sentence = f"{title}: {step} more changes power by {words if way else less}."

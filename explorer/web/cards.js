@@ -65,7 +65,7 @@
         <span class="rxf-dim">vs.</span>${blades}</div></header>
       ${limits}<div class="rxf-columns">
         ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
-          `<span>reach ${text(one.reach)}</span><span>${text(vibration)}</span>`,
+          `${one.reach && `<span>reach ${text(one.reach)}</span>`}<span>${text(vibration)}</span>`,
           `Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %.
           Vibration: mean and range over inflow models, blades bend.`)}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,

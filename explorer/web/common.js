@@ -12,6 +12,29 @@ const Common = (() => {
   const fixed = (value, decimals = 0) =>
     (value < 0 && Math.abs(value) >= .5 * 10 ** -decimals ? '−' : '') + Math.abs(value).toFixed(decimals);
   const signed = (value, decimals = 1) => (value >= .5 * 10 ** -decimals ? '+' : '') + fixed(value, decimals);
+  // A change without its sign and its band as printed, the decimals of both, and the word: as `rotor.trim.doubt` has
+  // them in `rounded_pair`. Words: the least ratio of each, the largest first.
+  function roundedPair(change, band, words, [most, mostOfSmall]) {
+    const wordOf = pair => words.find(([ratio]) => pair.change >= ratio * pair.band)[1];
+    const nearest = (size, within, decimals) =>
+      ({change: Number(size.toFixed(decimals)), band: Number(within.toFixed(decimals)), decimals});
+    const known = band > 0, first = known ? Math.floor(Math.log10(band)) : 0;
+    const coarse = known ? Math.max(0, -first + Number(band / 10 ** first < 2)) : 1;
+    const decimalsOf = digits =>
+      known ? Math.max(0, digits - 1 - Math.floor(Math.log10(Number(band.toPrecision(digits))))) : 1;
+    const end = decimalsOf(1) > most ? mostOfSmall : most;
+    const pairs = [coarse, decimalsOf(2)].map(decimals => nearest(change, band, Math.min(decimals, end)));
+    const otherWay = pairs.toReversed().flatMap(pair => {
+      const step = 10 ** -pair.decimals;
+      return [
+        nearest(pair.change, pair.band + (band < pair.band ? -step : step), pair.decimals),
+        nearest(pair.change + (change < pair.change ? -step : step), pair.band, pair.decimals),
+      ];
+    });
+    const word = wordOf({change, band});
+    const fits = pair => wordOf(pair) === word && (pair.decimals === 0 || pair.band * 10 ** pair.decimals < 99.5);
+    return {...[...pairs, ...otherWay].find(fits) ?? pairs[1], word};
+  }
   // A polygon as a path of SVG.
   const trace = points => `M${points.map(([x, y]) => `${x.toFixed(1)} ${y.toFixed(1)}`).join('L')}`;
   // HTML into an element that nobody else fills, unless it has it already: then its controls stay the same ones.
@@ -88,7 +111,7 @@ const Common = (() => {
   }
 
   return {
-    DEGREE, text, clamp, lerp, distance, turned, fixed, signed, trace, write, calm, closest, scale, soon, paced, drag,
+    DEGREE, text, clamp, lerp, distance, turned, fixed, signed, roundedPair, trace, write, calm, closest, scale, soon, paced, drag,
     viewer, node, setPose, project, follow,
   };
 })();

@@ -1,7 +1,7 @@
 // @ts-check
 // The page that travels: sliders, the polynomials of `explorer/export/fitted.py`, and what is drawn from them.
 (() => {
-  const {clamp, fixed, signed, lerp, soon} = Common, painters = {};
+  const {clamp, fixed, signed, lerp, roundedPair, soon} = Common, painters = {};
   const one = name => document.querySelector(name), all = name => [...document.querySelectorAll(name)];
   // The inset is that of the page.
   window.RX = /** @type {any} */ ({
@@ -77,10 +77,10 @@
       const total = sum(power.total, of), change = total - sum(power.total, shared);
       const band = spread(doubt.power, of), least = band < 10 ? 1 : 0;
       const within = Math.max(Math.hypot(spread(doubt.change, of), doubt.error), doubt.least);
-      const [, word] = doubt.words.find(([ratio]) => Math.abs(change) >= ratio * within);
-      const size = fixed(Math.abs(change), doubt.digits), none = !Number(size);
+      const shown = roundedPair(Math.abs(change), within, doubt.words, doubt.decimals);
+      const {word, decimals} = shown, none = !shown.change;
       const against = none ? 'as much as the shared design'
-        : `${banded(size, fixed(within, doubt.digits))} ${change > 0 ? 'more' : 'less'} than as shared, ${word}`;
+        : `${banded(fixed(shown.change, decimals), fixed(shown.band, decimals))} ${change > 0 ? 'more' : 'less'} than as shared, ${word}`;
       const words = handles.map((handle, k) => (handle.sign ? signed : fixed)(values[k], handle.digits));
       const line = model.line.map(([text, k]) => k === null ? text : words[k]).join('');
       const takes = banded(fixed(total, digits), fixed(band, Math.max(digits, least)));
@@ -93,7 +93,7 @@
       for (const row of all('tr[data-part]')) {
         const now = sum(power[row.dataset.part], of), more = now - sum(power[row.dataset.part], shared);
         row.cells[1].textContent = fixed(now, digits);
-        row.cells[2].textContent = Number(fixed(Math.abs(more), doubt.digits)) ? signed(more, doubt.digits) : '';
+        row.cells[2].textContent = Number(fixed(Math.abs(more), decimals)) ? signed(more, decimals) : '';
         one(`[data-bar=${row.dataset.part}]`).style.width = `${Math.max(0, 100 * now / model.longest)}%`;
       }
       sliders.forEach((slider, k) => {

@@ -37,6 +37,12 @@ def in_si(row: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
+MOST_BOUNDS = 10.0
+"""A value beyond this many times its limit is not printed: the laws it follows from do not hold there."""
+LEAST_TIP_TWIST = math.radians(0.005)
+"""An actuator of less range is too weak: its twist prints as 0.00° [rad]."""
+
+
 @dataclass(frozen=True)
 class DataProvenance:
     """Source of an actuator's numbers, and which of them are not verified."""
@@ -119,6 +125,12 @@ class Limit:
     bound: float
     unit: str
     sentence: str
+
+    @property
+    def far_above(self) -> bool:
+        """Whether the value is so far above the bound that it says nothing: `MOST_BOUNDS` times, or any where the
+        bound is 0."""
+        return not self.ok and self.value > MOST_BOUNDS * self.bound
 
 
 Swings = tuple[float, ...]
@@ -309,6 +321,11 @@ class InstalledActuator:
     def attainable(self) -> float:
         """Twist from root to tip, the sum of all segments [rad]."""
         return float(self.segment_twists.sum())
+
+    @property
+    def too_weak(self) -> bool:
+        """Whether it hardly moves: its twist prints as 0.00°."""
+        return self.attainable < LEAST_TIP_TWIST
 
     @property
     def segment_twists(self) -> Array:

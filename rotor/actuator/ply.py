@@ -13,7 +13,15 @@ from typing import Any, Literal, Self
 import numpy as np
 from numpy.typing import ArrayLike
 
-from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit, MassBreakdown, Swings
+from rotor.actuator.kind import (
+    MOST_BOUNDS,
+    Actuator,
+    Drive,
+    InstalledActuator,
+    Limit,
+    MassBreakdown,
+    Swings,
+)
 from rotor.actuator.limits import HALF_THICKNESS, fibre_strain
 from rotor.actuator.section import (
     HostBlade,
@@ -36,8 +44,6 @@ from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 
 Electrodes = Literal["interdigitated", "continuous"]
-MOST_RANGES = 100.0
-"""Multiple of the voltage range above which no voltage is printed (a sheet that hardly shears)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -225,11 +231,9 @@ class PiezoPly(Actuator):
         field, allowed = (volts / gap * 1e-6 for volts in (most, self.voltage_swing))
         span = f"{low:g}…{high:g} V ({low / gap * 1e-6:.2g}…{high / gap * 1e-6:.2g} kV/mm)"
         needs, swings_by = f"needs a swing of {most:.0f} V", f"swings by {field:.2f} kV/mm"
-        if most >= MOST_RANGES * self.voltage_swing:
-            needs, swings_by = (
-                "is out of range at any voltage",
-                "would have to swing by hundreds of kV/mm",
-            )
+        if most > MOST_BOUNDS * self.voltage_swing:  # A sheet that hardly shears.
+            needs = "is out of range at any voltage"
+            swings_by = f"would have to swing by far more than {allowed:.2f} kV/mm"
         by_voltage = f"The required twist {needs}; the range is {span}."
         by_field = f"The field {swings_by}; a reverse field beyond the range depolarises the sheet."
         voltage = Limit("voltage", ok, most, self.voltage_swing, "V", by_voltage)

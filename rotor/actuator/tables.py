@@ -8,14 +8,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rotor.actuator.catalogue import STEPS, actuators, find_actuator
-from rotor.actuator.kind import Actuator
+from rotor.actuator.kind import MOST_BOUNDS, Actuator
 from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import WANTED_SHARE, BreakEven
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.verdict import Verdict, judge, reference
 from rotor.optimisation.concepts import find_concept
 from rotor.support.terminal import wrapped
-from rotor.trim.doubt import sureness
+from rotor.trim.doubt import rounded_pair, sureness
 
 NONE = "–"
 
@@ -136,7 +136,7 @@ def _comparison(verdict: Verdict) -> Row:
         "blade": installed.host.label,
         "needed °": f"{math.degrees(verdict.required):.2f}",
         "nominal °": f"{math.degrees(verdict.attainable):.2f}",
-        "needed/nominal": f"{verdict.ratio:.2f}" if verdict.ratio < 100.0 else "> 100",
+        "needed/nominal": _ratio(verdict),
         "voltages V": "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages)
         or NONE,
         "mass kg": f"{installed.masses.aircraft:.0f}",
@@ -154,10 +154,25 @@ def _comparison(verdict: Verdict) -> Row:
     }
 
 
+def _ratio(verdict: Verdict) -> str:
+    """Twist needed over that of the whole drive."""
+    if verdict.ratio > MOST_BOUNDS:
+        return f"> {MOST_BOUNDS:.0f}"
+    return f"{verdict.ratio:.2f}"
+
+
 def _banded(verdict: Verdict, name: str, saving: float) -> str:
     """A saving with its band, where that is not zero [kW]."""
     band = verdict.band_of(name)
-    return f"{kilowatts(saving)} ± {kilowatts(band)}" if band else kilowatts(saving)
+    if not band:
+        return kilowatts(saving)
+    return _pair_text(saving / 1e3, band / 1e3)
+
+
+def _pair_text(change: float, band: float) -> str:
+    """A change with its band, without negative zero."""
+    pair = rounded_pair(change, band)
+    return f"{pair.change + 0.0:.{pair.decimals}f} ± {pair.band:.{pair.decimals}f}"
 
 
 def kilowatts(power: float) -> str:
@@ -182,7 +197,7 @@ def _wanted(even: BreakEven) -> Row:
         "rotor": pair.design.aircraft.name,
         "µ": " and ".join(f"{ratio:g}" for ratio in pair.advance_ratios),
         "optima apart °": f"{math.degrees(abs(even.change)):.1f}",
-        "ideal kW": f"{even.ideal_saving / 1e3:.2f} ± {even.ideal_band / 1e3:.2f}",
+        "ideal kW": _pair_text(even.ideal_saving / 1e3, even.ideal_band / 1e3),
         "sign": sureness(even.ideal_saving, even.ideal_band),
         "twist ≥ °": f"{math.degrees(needed.twist):.1f}" if pays else NONE,
         "mass ≤ kg": f"{needed.mass:.1f}" if pays else NONE,

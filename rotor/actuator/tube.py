@@ -7,7 +7,15 @@ from typing import Any, Self
 
 import numpy as np
 
-from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit, MassBreakdown, Swings
+from rotor.actuator.kind import (
+    MOST_BOUNDS,
+    Actuator,
+    Drive,
+    InstalledActuator,
+    Limit,
+    MassBreakdown,
+    Swings,
+)
 from rotor.actuator.section import Placement
 from rotor.dynamics.structure import structure_data, titanium, uh60a_structure
 from rotor.support.arrays import Array
@@ -113,8 +121,11 @@ class TorqueTube(Actuator):
             else "a spar designed for it can hold it"
         )
         tubes, moment = installed.placement.plies, installed.moment
+        needs = f"{worst * moment:.0f} N·m"
+        if worst > MOST_BOUNDS:
+            needs = "far more torque than they have"
         by_torque = (
-            f"The required twist needs {worst * moment:.0f} N·m; {tubes} tube(s) per segment give {moment:.0f} of "
+            f"The required twist needs {needs}; {tubes} tube(s) per segment give {moment:.0f} of "
             f"{tubes * self.torque:.0f} N·m when blocked."
         )
         fits = not retrofit and self.diameter <= height

@@ -28,7 +28,7 @@ from rotor.optimisation.concepts import Concept, find_concept
 from rotor.optimisation.doubt import difference_doubt
 from rotor.support.arrays import Array
 from rotor.trim.analysis import Analysis
-from rotor.trim.doubt import Doubt, banded, change_decimals, sureness
+from rotor.trim.doubt import Doubt, pair_text, rounded_pair, sure_words, sureness
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -384,9 +384,7 @@ def verdict_sentence(verdict: Verdict) -> str:
     if verdict.net_saving < MIN_SHOWN_W:
         return f"{text}, so this {verdict.installed.actuator.noun[0]} does not pay{sure}."
     but = "" if verdict.pays or forbidden else f", but it cannot be built ({_broken(verdict)})"
-    return (
-        f"{text}, a net saving of {kilowatt_text(verdict.net_saving, _digits(verdict))}{sure}{but}."
-    )
+    return f"{text}, a net saving of {_net_saving(verdict)}{sure}{but}."
 
 
 def net_band_words(verdict: Verdict) -> str:
@@ -394,16 +392,17 @@ def net_band_words(verdict: Verdict) -> str:
     band = verdict.net_band
     if band is None:
         return ""
-    word = sureness(verdict.net_saving, band, sourced=verdict.sourced)
-    return f"± {kilowatt_text(band, _digits(verdict))}: {word}"
+    pair = rounded_pair(verdict.net_saving / 1e3, band / 1e3)
+    words = sure_words(verdict.net_saving, band, sourced=verdict.sourced)
+    return f"± {pair.band:.{pair.decimals}f} kW: {words}"
 
 
-def _digits(verdict: Verdict) -> int:
-    return (
-        1
-        if verdict.net_band is None
-        else change_decimals(verdict.net_saving / 1e3, verdict.net_band / 1e3, 1)
-    )
+def _net_saving(verdict: Verdict) -> str:
+    """The net saving in kilowatts, with the decimals of its band."""
+    if verdict.net_band is None:
+        return kilowatt_text(verdict.net_saving)
+    pair = rounded_pair(verdict.net_saving / 1e3, verdict.net_band / 1e3)
+    return f"{pair.change:.{pair.decimals}f} kW"
 
 
 def verdict_details(verdict: Verdict) -> str:
@@ -416,7 +415,8 @@ def verdict_details(verdict: Verdict) -> str:
     if saved is not None:
         size, sourced = f"{abs(3600.0 * saved):.1f} kg/h", verdict.sourced
         if band is not None:
-            size = banded(abs(3600.0 * saved), 3600.0 * band, "kg/h", 1, sourced=sourced)
+            word = sureness(saved, band, sourced=sourced)
+            size = f"{pair_text(abs(3600.0 * saved), 3600.0 * band, 'kg/h')}: {word}"
         sentences.append(f"Net fuel: {'saves' if saved >= 0.0 else 'costs'} {size}.")
     if verdict.broken:
         sentences.append(f"Limits exceeded: {_broken(verdict)}.")
@@ -443,6 +443,10 @@ def _reach(verdict: Verdict) -> str:
     what = f"{installed.actuator.name} ({installed.count}, {installed.host.label})"
     first, second = (flight_text(mu) for mu in verdict.baseline.pair.advance_ratios)
     need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
+    if installed.too_weak:
+        return (
+            f"{what} moves 0.00°: far too weak for the {need:.1f}° needed from {first} to {second}."
+        )
     can = "can supply" if verdict.feasible else "cannot supply"
     return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({nominal:.1f}° nominal)."
 
@@ -475,7 +479,9 @@ def part_words(verdict: Verdict, name: str, saving: float) -> str:
     )
     if not band or size < MIN_SHOWN_W:
         return f"{verb} {kilowatt_text(size)}"
-    return f"{verb} {banded(size / 1e3, band / 1e3, 'kW', 1, sourced=verdict.sourced)}"
+    # The sentence of the verdict says once why no word is `sure`.
+    word = sureness(size, band, sourced=verdict.sourced)
+    return f"{verb} {pair_text(size / 1e3, band / 1e3, 'kW')}: {word}"
 
 
 def flight_text(advance_ratio: float) -> str:

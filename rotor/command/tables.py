@@ -32,7 +32,7 @@ from rotor.support.arrays import Array
 from rotor.support.table import LEFT, CellValue, Column, Table, table
 from rotor.support.terminal import wrapped
 from rotor.support.units import power_unit
-from rotor.trim.doubt import doubt
+from rotor.trim.doubt import doubt, rounded_pair
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -85,7 +85,8 @@ def sweep_report(solutions: SweepTable, over: str) -> str:
     symbol, size = power_unit(*(solution.last_power.total for solution in solutions))
     columns = [_sweep_column(solutions.columns[k], symbol) for k in kept]
     failures = ("" if one.converged else f"{one.status.value}: {one.message}" for one in solutions)
-    pairs = zip(solutions.rows, failures, strict=True)
+    changes = [_with_rounded_change(solutions.columns, row) for row in solutions.rows]
+    pairs = zip(changes, failures, strict=True)
     rows = [
         (*(_in_unit(row[k], solutions.columns[k], size) for k in kept), failure)
         for row, failure in pairs
@@ -95,6 +96,19 @@ def sweep_report(solutions: SweepTable, over: str) -> str:
         words = re.sub(r"[\d.]+", "", caveat.sentence)
         sentences.setdefault(words, wrapped(f"caveat: {caveat.sentence}", "  "))
     return "\n".join((table((*columns, Column("", LEFT)), rows).text(), *sentences.values()))
+
+
+def _with_rounded_change(names: Sequence[str], row: tuple[CellValue, ...]) -> tuple[CellValue, ...]:
+    """The row with its change and the band of that as texts, rounded as `rounded_pair`."""
+    cells = dict(zip(names, row, strict=True))
+    change = cells.get("change_percent")
+    band = cells.get("change_band_percent")
+    if not isinstance(change, float) or not isinstance(band, float):
+        return row
+    pair = rounded_pair(change, band)
+    cells["change_percent"] = f"{pair.change:+.{pair.decimals}f}"
+    cells["change_band_percent"] = f"{pair.band:.{pair.decimals}f}"
+    return tuple(cells.values())
 
 
 def _in_unit(cell: CellValue, name: str, size: float) -> CellValue:

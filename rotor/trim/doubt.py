@@ -14,7 +14,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 
@@ -38,6 +38,10 @@ SURE, LIKELY = 2.0, 1.0
 """A change this many times its band is sure, or likely; the sign of a smaller one is unclear."""
 LEAST_REPORTED = 0.01
 """[%] of power: a change and a band that are both smaller are none, and no band is said to be smaller."""
+ESTIMATED = "from estimated data"
+"""Why the change that an actuator makes is at most `likely`."""
+MOST_DECIMALS, MOST_OF_SMALL = 2, 3
+"""Of a printed change and its band; and where the first digit of the band is behind those."""
 COMPARED_INFLOWS = ("lifting-line", "pitt-peters")
 """Inflow models whose disagreement about a difference is taken as its error."""
 
@@ -157,7 +161,8 @@ class Doubt:
         """The power, and after `design` what the design saves, as in `sentence`."""
         symbol, size = power_unit(self.power, self.band)
         band = self.band / size
-        words = f"{self.of} {self.power / size:.0f} ± {band:.{decimals(band)}f} {symbol}."
+        digits = decimals(band)
+        words = f"{self.of} {self.power / size:.{digits}f} ± {band:.{digits}f} {symbol}."
         return f"{words} {design} {self.saving_words}." if self.saving_words else words
 
     @property
@@ -228,23 +233,77 @@ def sureness(change: float, band: float, *, sourced: bool = True) -> str:
     return "sure" if ratio >= SURE and sourced else "likely" if ratio >= LIKELY else "unclear"
 
 
-def banded(change: float, band: float, unit: str, least: int = 0, *, sourced: bool = True) -> str:
-    """A change with its band and whether its sign is known, as `1.8 ± 0.7 %: sure`; decimals as `change_decimals`."""
-    digits = change_decimals(change, band, least)
-    return (
-        f"{change:.{digits}f} ± {band:.{digits}f} {unit}: {sureness(change, band, sourced=sourced)}"
-    )
+def sure_words(change: float, band: float, *, sourced: bool = True) -> str:
+    """`sureness`, and why it is not `sure` where the band alone would allow that: `likely, from estimated data`."""
+    word = sureness(change, band, sourced=sourced)
+    if word == sureness(change, band):
+        return word
+    return f"{word}, {ESTIMATED}"
 
 
-def change_decimals(change: float, band: float, least: int = 0) -> int:
-    """Decimals of a change and its band as printed: `least` or those of the band, up to 2, and more until the printed
-    numbers have the word of the exact ones. So equal numbers have equal words."""
-    digits = max(min(decimals(band), 2), least)
-    while digits < 9 and sureness(round(change, digits), round(band, digits)) != sureness(
-        change, band
-    ):
-        digits += 1
-    return digits
+def banded(change: float, band: float, unit: str, *, sourced: bool = True) -> str:
+    """A change with its band and whether its sign is known, as `1.8 ± 0.7 %: sure`."""
+    return f"{pair_text(change, band, unit)}: {sure_words(change, band, sourced=sourced)}"
+
+
+def pair_text(change: float, band: float, unit: str) -> str:
+    """A change with its band, as `1.8 ± 0.7 %`, rounded as `rounded_pair`."""
+    pair = rounded_pair(change, band)
+    return f"{pair.change:.{pair.decimals}f} ± {pair.band:.{pair.decimals}f} {unit}"
+
+
+class RoundedPair(NamedTuple):
+    """A change and its band as they are printed."""
+
+    change: float
+    band: float
+    decimals: int
+    """Of both."""
+
+
+def rounded_pair(change: float, band: float) -> RoundedPair:
+    """A change and its band rounded for print, so that both have the decimals of the band and the printed pair has the
+    `sureness` of the exact one.
+
+    The band has one significant digit, two where it is below 2 and where one would give the pair another word; of a
+    band of 100 and more all digits of the integer are kept. Where two would as well, one of the two numbers is rounded
+    the other way. So a change has one word in every unit, and no word says more than its numbers.
+    """
+    word = sureness(change, band)
+    small = _decimals_of_digits(band, 1) > MOST_DECIMALS
+    most = MOST_OF_SMALL if small else MOST_DECIMALS
+    coarse = min(decimals(band), most)
+    fine = min(_decimals_of_digits(band, 2), most)
+    nearest = [_nearest(change, band, digits) for digits in (coarse, fine)]
+    candidates = list(nearest)
+    for pair in reversed(nearest):
+        step = 10.0**-pair.decimals
+        other_band = pair.band + math.copysign(step, band - pair.band)
+        other_change = pair.change + math.copysign(step, change - pair.change)
+        candidates.append(_nearest(pair.change, other_band, pair.decimals))
+        candidates.append(_nearest(other_change, pair.band, pair.decimals))
+    for pair in candidates:
+        if sureness(pair.change, pair.band) == word and _at_most_two_digits(pair):
+            return pair
+    return nearest[-1]
+
+
+def _decimals_of_digits(band: float, digits: int) -> int:
+    """Decimals with which a band has so many significant digits, and no more."""
+    if not (math.isfinite(band) and band > 0.0):
+        return 1
+    # Rounded first: of two digits, 9.96 is 10.
+    first = math.floor(math.log10(float(f"{band:.{digits - 1}e}")))
+    return max(0, digits - 1 - first)
+
+
+def _nearest(change: float, band: float, digits: int) -> RoundedPair:
+    return RoundedPair(round(change, digits), round(band, digits), digits)
+
+
+def _at_most_two_digits(pair: RoundedPair) -> bool:
+    """Whether the band has no third significant digit behind the point."""
+    return pair.decimals == 0 or pair.band * 10.0**pair.decimals < 99.5
 
 
 def decimals(band: float) -> int:

@@ -17,7 +17,7 @@ from explorer.export.live import live_html
 from explorer.model.inputs import ViewState
 from explorer.picture.picture import flown_twist
 from rotor import make_design, solve
-from rotor.trim.doubt import sureness
+from rotor.trim.doubt import LIKELY, MOST_DECIMALS, MOST_OF_SMALL, SURE, rounded_pair, sureness
 
 DESIGN = make_design(mu=0.3, twist="segments:-12,-6@0.5", inflow="drees", elements=16, azimuths=36)
 
@@ -80,6 +80,27 @@ def test_a_slider_shows_the_power_that_a_trim_has(page: Page, made: Fitted):
     # That of the polynomials is in it.
     assert float(within) >= float(np.sqrt(np.mean(made.errors**2))) / 1e3 - 0.05
     assert word == sureness(float(change), float(within))
+    behind = within.partition(".")[2]
+    assert len(behind) == len(change.partition(".")[2])
+    assert not behind or len(within.replace(".", "").lstrip("0")) <= 2
+
+
+def test_it_rounds_a_change_and_its_band_as_every_other_view(page: Page):
+    draw = np.random.default_rng(5)
+    bands = 10.0 ** draw.uniform(-4.0, 2.5, 3000)
+    changes = bands * draw.choice([1.0, 2.0, 3.7], 3000) * (1.0 + draw.normal(0.0, 0.05, 3000))
+    pairs = np.column_stack((changes, bands)).tolist()
+    words = [[SURE, "sure"], [LIKELY, "likely"], [0.0, "unclear"]]
+    found = page.evaluate(
+        "([pairs, words, most]) => pairs.map(pair => Common.roundedPair(...pair, words, most))",
+        [pairs, words, [MOST_DECIMALS, MOST_OF_SMALL]],
+    )
+    for (change, band), one in zip(pairs, found, strict=True):
+        pair = rounded_pair(change, band)
+        assert one["decimals"] == pair.decimals, (change, band)
+        assert one["change"] == pytest.approx(pair.change, abs=1e-9), (change, band)
+        assert one["band"] == pytest.approx(pair.band, abs=1e-9), (change, band)
+        assert one["word"] == sureness(change, band)
 
 
 def test_the_best_twist_and_the_way_back(page: Page, made: Fitted):

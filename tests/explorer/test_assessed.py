@@ -30,6 +30,7 @@ from explorer.sharing.share import code_of, design_from
 from explorer.text.readout import limit_words
 from explorer.views.actuated import ActuatedBlade, actuated_blade
 from explorer.views.actuator import ACTUATOR
+from explorer.views.actuator_words import limits_panel
 from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
@@ -53,14 +54,15 @@ from rotor.actuator import (
     try_actuator,
     with_actuator,
 )
-from rotor.actuator.verdict import Against, Verdict, judge
+from rotor.actuator.verdict import Against, Verdict, judge, verdict_details
+from rotor.command import actuator as command
 from rotor.design import Harmonic
 from rotor.design.active_twist import read_harmonics
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.vibration import with_harmonics
-from rotor.trim.doubt import change_decimals, sureness
+from rotor.trim.doubt import ESTIMATED, RoundedPair, rounded_pair, sureness
 from rotor.trim.solve import solve
 from tests.actuate import actuate, asked, done, solved, told, worked
 
@@ -167,7 +169,6 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("power over the flight", rf"{row}{NUMBER} +{NUMBER} +[+−]([\d.]+) ±", kinds)
     read("range in flight", "range of tip twist #° in flight", rail["actuator.numbers"])
     read("torsion", "first torsion at #/rev", rail["actuator.numbers"])
-    read("mass that pays", "^# kg", part.pays[1] if len(part.pays) > 1 else "0 kg")
     read("fuel", "([\\d.]+) ±", flight["earns"].fuel)
     read("fuel", "Net fuel: \\w+ # ±", report)
     for share in POWER.view(now)["power"].parts:
@@ -215,6 +216,8 @@ def screen(now: PageState) -> dict[str, list[str]]:
     if "unclear" not in part.vibration:
         read("vibration", r"vibration # %", part.vibration)
     for words in (*part.over, *part.required):
+        if words == "no space" or " far above " in words:
+            continue
         (name,) = [
             limit.name
             for limit in verdict.broken
@@ -231,9 +234,13 @@ def judged(against: Against, id: str = "MFC_P1") -> Verdict:
 
 
 def as_said(watts: float, band: float | None) -> str:
-    digits = 0 if abs(watts) >= 9950.0 else 1
-    digits = digits if band is None else change_decimals(1e-3 * watts, 1e-3 * band, digits)
-    return f"{abs(1e-3 * watts):.{digits}f}"
+    if band is None:
+        return f"{abs(1e-3 * watts):.{0 if abs(watts) >= 9950.0 else 1}f}"
+    return printed_size(rounded_pair(1e-3 * watts, 1e-3 * band))
+
+
+def printed_size(pair: RoundedPair) -> str:
+    return f"{abs(pair.change):.{pair.decimals}f}"
 
 
 def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> dict[str, str]:
@@ -269,8 +276,7 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
         "range": f"{math.degrees(verdict.attainable):.1f}",
         "range in flight": f"{math.degrees(verdict.attainable):.2f}",
         "torsion": f"{installed.frequency:.2f}",
-        "mass that pays": f"{(allowed := verdict.mass_allowed or 0.0):.{0 if allowed >= 10.0 or not allowed else 1}f}",
-        "fuel": f"{3600.0 * abs(fuel):.{change_decimals(3600.0 * fuel, 3600.0 * within, 1)}f}",
+        "fuel": printed_size(rounded_pair(3600.0 * fuel, 3600.0 * within)),
         "stalled": f"{100.0 * flown.stalled_area:.1f}",
         **{
             name: f"{1e-3 * getattr(flown.power, name):.0f}"
@@ -285,11 +291,27 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
         **{
             f"limit {limit.name}": f"{limit.value:.{0 if max(limit.value, limit.bound) >= 20.0 else 2}f}"
             for limit in verdict.broken
+            if not limit.far_above
         },
     }
     if min(index) * max(index) > 0.0:
         found["vibration"] = f"{sum(index) / len(index):+.0f}"
     return {name: text.replace("-", "−") for name, text in found.items()}
+
+
+def check_mass_that_pays(now: PageState, allowed: float) -> None:
+    """The card names the mass [kg] at which it breaks even with its band, unless the band holds no mass as well."""
+    value, _ = known(now)
+    assert value.line is not None
+    words = "".join(card(now).pays)
+    band = value.line.band(value.range, allowed) / value.line.per_kg
+    if not allowed:
+        assert words == "It would not pay, however light."
+        return
+    pair = rounded_pair(allowed, band)
+    named = f"pay below {pair.change:.{pair.decimals}f} kg (± {pair.band:.{pair.decimals}f} kg)"
+    assert (named in words.replace("pays", "pay")) == (allowed >= band)
+    assert ("no mass is sure to pay" in words) == (allowed < band)
 
 
 STATES = ("set", 0.0), ("set", 77.0), ("schedule", 77.0), ("stopped", 77.0)
@@ -309,6 +331,7 @@ def test_every_number_on_the_screen_is_that_of_rotor(
     assert {name: set(values) for name, values in found.items()} == {
         name: {value} for name, value in of_rotor(id, against, state, drive).items()
     }
+    check_mass_that_pays(now, judged(against, id).mass_allowed or 0.0)
     parts = balance_here(now)
     *each, total = (float(text.replace("−", "-")) for text in parts.values())
     assert sum(each) == pytest.approx(total, abs=1e-9)  # What is written adds up.
@@ -320,6 +343,34 @@ def test_every_number_on_the_screen_is_that_of_rotor(
     assert re.search(
         rf" with {id.replace('_', ' ')} {states[state]} .* than {than}, ", line_text(now)
     )
+
+
+@pytest.mark.parametrize("against", AGAINST)
+def test_one_that_hardly_moves_says_so_once_and_has_no_number_beyond_its_limits(against: Against):
+    """PZT5A shears by its thickness alone: 0.00° of tip twist, and volts by the million for what is required."""
+    now = answered(against, DRIVEN, "set", "PZT5A")
+    value, verdict = known(now)
+    part = card(now)
+    volts = next(limit for limit in verdict.broken if limit.name == "voltage")
+    assert value.installed.too_weak
+    assert volts.value > 1e4 * volts.bound
+    assert (part.reach, part.pays) == ("", ())
+    assert "it moves 0.00°: far too weak." in part.sentence
+    required = " ".join(part.required)
+    assert f"voltage far above {volts.bound:.0f} V" in required
+    assert "field far above " in required
+    details = verdict_details(verdict)
+    assert details.count("far too weak") == 1
+    assert " moves 0.00°: far too weak for the " in details
+    texts = [
+        *(one for one in parts_of(part) if isinstance(one, str)),
+        re.sub(r"<[^>]*>", " ", actuator_section(verdict, SI)),
+        re.sub(r"<[^>]*>", " ", limits_panel(verdict)),
+        command.report(verdict),
+    ]
+    for text in texts:
+        assert re.findall(r"\d{6,}", text.replace("\u2009", "")) == []
+        assert "0.00…0.00" not in text
 
 
 def test_while_the_blade_is_out_only_what_is_seen_is_computed():
@@ -482,7 +533,9 @@ def check_bands(shown: Mapping[str, Any], *, sourced: bool) -> tuple[int, int]:
         assert size(low) <= size(value) <= size(high), (value, low, high)
     line = shown.get("line")
     pieces = {piece.part: piece for piece in line.pieces} if line is not None else {}
-    word = pieces["sure"].text.removeprefix(", ") if "sure" in pieces else ""
+    sure = pieces["sure"].text.removeprefix(", ") if "sure" in pieces else ""
+    word, _, reason = sure.partition(", ")
+    assert reason in ("", ESTIMATED)
     texts |= {(pieces["moved"].text, pieces["sure-band"].text[3:], word)} if word else set()
     if "moved" in pieces:
         assert (pieces["moved"].kind != "") == (word in ("sure", "likely"))

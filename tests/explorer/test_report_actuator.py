@@ -18,9 +18,10 @@ from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.flight import earns_state
 from explorer.workers.call import at_once
 from rotor.actuator import with_actuator
-from rotor.actuator.verdict import Against, Verdict, kilowatt_text, reference, try_actuator
+from rotor.actuator.verdict import Against, Verdict, reference, try_actuator
 from rotor.command import actuator as command
 from rotor.files.make_design import make_design
+from rotor.trim.doubt import rounded_pair
 from rotor.trim.solve import solve
 from tests.actuate import actuate
 
@@ -45,7 +46,8 @@ def test_report_rail_and_command_say_the_same(against: Against):
     rail, printed = earns_state(one, True, SI), command.report(one)
     assert one.net_band is not None
     assert sentence == [f"Compared with {reference(one)}, it {needs(one, SI)} over the mission."]
-    assert f"± {kilowatt_text(one.net_band)}" in printed.splitlines()[0]
+    pair = rounded_pair(one.net_saving / 1e3, one.net_band / 1e3)
+    assert f"(± {pair.band:.{pair.decimals}f} kW: likely" in printed.splitlines()[0]
     assert numbers(page) == [bar.text for bar in rail.bars]
     assert f"<b>{rail.fuel}</b>" in page
     said = re.findall(
@@ -60,7 +62,7 @@ def test_report_rail_and_command_say_the_same(against: Against):
         needed[:2] = needed[1::-1]
     assert needed == pytest.approx(of_command, abs=1.0)
     assert len(of_command) == len(one.savings) + 1
-    assert of_command[-1] == pytest.approx(1e-3 * one.net_saving, abs=0.051)
+    assert of_command[-1] == pair.change
     (kilograms,) = re.findall(r"Net\s+fuel:\s+\w+\s+([\d.]+)", printed)
     assert kilograms in rail.fuel
 

@@ -92,14 +92,21 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(
     shown = PAY.view(now)["suppose"]
     # On the line: 3000·½·1.5 W of twist less 4.3·200 W of mass; 11.25 kg cost what the twist saves.
     assert (shown.words, shown.at) == (
-        "2.0° for 4.3 kg saves 1.4 ± 0.4 kW (likely) over the mission",
+        "2.0° for 4.3 kg saves 1.4 ± 0.4 kW (likely, from estimated data) over the mission",
         (2.0, 4.3),
     )
-    assert shown.note == "With this range it pays below 11 ± 1.4 kg; with this mass, above 0.6°."
+    assert shown.note == "With this range it pays below 11.2 ± 1.4 kg; with this mass, above 0.6°."
     assert (shown.kind, PAY.view(now)["actuator.pays"]) == ("gain", True)
     near = PAY.view(done(now, move_supposed(now, SupposePress(2.0, 11.0))))
     assert near["suppose"].words.endswith("(unclear) over the mission")
     assert (near["suppose"].kind, near["actuator.pays"]) == ("", False)
+    line = actuated_blade(lined).line
+    assert line is not None
+    wide = replace(line, changes=np.linspace(0.0, 6000.0, 9)[None, :])
+    unsure = done(told(ACTUATOR_CARD, judged, other_stroke=wide), move_supposed(judged, "on"))
+    unsure = done(unsure, move_supposed(unsure, SupposePress(2.0, 4.3)))
+    note = PAY.view(unsure)["suppose"].note
+    assert note == "With this range no mass is sure to pay; with this mass, above 0.6°."
     heavy = done(now, move_supposed(now, SupposePress(2.0, 50.0)))
     assert (PAY.view(heavy)["suppose"].kind, PAY.view(heavy)["actuator.pays"]) == ("loss", False)
     assert move_supposed(now, "off")[-1] == SetAddress("i", None)
@@ -181,7 +188,7 @@ def test_at_the_chosen_actuator_it_says_what_the_card_says(lined: PageState):
     value, shown = actuated_blade(now), PAY.view(now)["suppose"]
     assert value.over_flight is not None
     assert shown.at == (round(math.degrees(value.range), 2), float(f"{value.mass:.3g}"))
-    words = re.search(r"needs .* more \(\w+\)", shown.words)
+    words = re.search(r"needs .* more \([^)]+\)", shown.words)
     assert words[0] == ACTUATOR_CARD.view(now)["assessed"].flight
     other = actuate(with_rotor(INPUTS, "s61"), on_stage=True)
     assert PAY.view(other)["suppose"] is None

@@ -246,8 +246,11 @@ def retrofit(id: str, plies: int) -> InstalledActuator:
             5e4,
             {"voltage"},
             set(),
-            ("out of range at any voltage",),
+            ("out of range at any voltage", "far more than 1.00 kV/mm"),
         ),
+        (retrofit("MFC_P1", 1), 11.0, {"voltage"}, set(), ("out of range at any voltage",)),
+        (retrofit("MFC_P1", 1), 9.0, {"voltage"}, set(), ("a swing of 18000 V",)),
+        (retrofit("SMA_tube", 2), 11.0, {"torque"}, set(), ("far more torque than they have",)),
     ],
 )
 def test_limits(

@@ -18,6 +18,7 @@ from rotor.__main__ import build_parser
 from rotor.design.quantities import CONDITION
 from rotor.study.series import SHARED_COLUMNS, sweep_columns
 from rotor.support.user_input import parse_range
+from rotor.trim.doubt import sureness
 from rotor.trim.export import SCHEMA
 
 KEYS = [
@@ -156,6 +157,17 @@ def test_sweep_table_and_csv(printed: Printed, answer: Answer, tmp_path: Path):
         "sweep", "--mu", "0.2", "--twist", "linear:-8", "--relative-to", "linear:-8", *QUICK
     )
     assert re.split(" {2,}", compared.splitlines()[0])[-3:] == ["change %", "± %", "sureness"]
+    changed = printed(
+        "sweep", "--mu", "0.2:0.3:0.1", "--twist", "linear:-8", "linear:-12", "--relative-to",
+        "linear:-8", *QUICK,
+    )  # fmt: skip
+    pairs = re.findall(r"([+-][\d.]+) +([\d.]+) +(sure|likely|unclear)$", changed, re.MULTILINE)
+    assert len(pairs) == 2
+    for change, band, word in pairs:
+        assert sureness(float(change), float(band)) == word
+        behind = band.partition(".")[2]
+        assert len(change.partition(".")[2]) == len(behind)
+        assert not behind or len(band.replace(".", "").lstrip("0")) <= 2
     single = answer("solve", "--mu", "0.2", "--twist", "linear:-8")
     assert_allclose(float(rows[1]["power_total_w"]), single["power_w"]["total"], rtol=1e-9)
 

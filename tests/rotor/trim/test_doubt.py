@@ -303,23 +303,67 @@ def test_the_words_follow_the_ratio(change: float, band: float, word: str):
     assert sureness(change, band).startswith(word)
 
 
-def test_equal_numbers_have_equal_words():
-    """As printed: where rounding would make a change sure that is not, it has more digits."""
-    assert banded(1.004, 0.502, "%") == "1.0 ± 0.5 %: sure"
-    assert banded(0.996, 0.502, "%") == "0.996 ± 0.502 %: likely"
-    assert banded(11.9, 12.1, "kW") == "11.9 ± 12.1 kW: unclear"
-    said: dict[str, set[str]] = {}
-    for change, band in np.random.default_rng(1).uniform(0.2, 4.0, (4000, 2)).tolist():
-        numbers, _, word = banded(change, band, "kW").partition(": ")
-        said.setdefault(numbers, set()).add(word)
-        assert sureness(*(float(part) for part in numbers.removesuffix(" kW").split(" ± "))) == word
-    assert max(map(len, said.values())) == 1
+@pytest.mark.parametrize(
+    ("change", "band", "words"),
+    [
+        (1.004, 0.502, "1.0 ± 0.5 %: sure"),
+        (0.996, 0.502, "1.00 ± 0.51 %: likely"),
+        (11.9, 12.1, "12 ± 13 %: unclear"),
+        (1.1379, 1.1381, "1.1 ± 1.2 %: unclear"),
+        (0.08103, 0.08104, "0.08 ± 0.09 %: unclear"),
+        (54.41, 18.62, "54 ± 19 %: sure"),
+        (29.6, 14.9, "29 ± 15 %: likely"),
+        (21.45, 10.7, "21 ± 10 %: sure"),
+        (19.8, 9.93, "19 ± 10 %: likely"),
+        (412.0, 186.4, "412 ± 186 %: sure"),
+        (0.0123, 0.0036, "0.012 ± 0.004 %: sure"),
+    ],
+)
+def test_the_digits_are_those_of_the_band(change: float, band: float, words: str):
+    """Where rounding to the nearest would change the word, one of the two is rounded the other way."""
+    assert banded(change, band, "%") == words
+
+
+def near_the_words() -> list[tuple[float, float]]:
+    """Changes and bands, a third each of any ratio and of ratios at which the word changes."""
+    draw = np.random.default_rng(1)
+    bands = 10.0 ** draw.uniform(-2.0, 2.5, 6000)
+    ratios = draw.choice([1.0, 2.0, 3.7], 6000) * (1.0 + draw.normal(0.0, 0.05, 6000))
+    return list(zip((bands * ratios).tolist(), bands.tolist(), strict=True))
+
+
+def test_the_printed_pair_has_the_word_of_the_exact_one_in_every_unit():
+    for exact_change, exact_band in near_the_words():
+        word = sureness(exact_change, exact_band)
+        for unit in (1.0, 0.7457, 9.04):
+            change = exact_change / unit
+            band = exact_band / unit
+            numbers, _, printed_word = banded(change, band, "kW").partition(": ")
+            size, within = numbers.removesuffix(" kW").split(" ± ")
+            assert printed_word == word
+            assert sureness(float(size), float(within)) == word, numbers
+            behind = within.partition(".")[2]
+            assert len(size.partition(".")[2]) == len(behind), numbers
+            assert not behind or len(within.replace(".", "").lstrip("0")) <= 2, numbers
+            assert float(size) == pytest.approx(change, abs=1.0001 * 10.0 ** -len(behind))
+            assert float(within) == pytest.approx(band, abs=1.0001 * 10.0 ** -len(behind))
+
+
+def test_a_word_that_a_value_without_a_source_lowers_says_why():
+    assert banded(9.0, 1.0, "kW", sourced=False) == ("9.0 ± 1.0 kW: likely, from estimated data")
+    assert banded(1.5, 1.0, "kW", sourced=False) == "1.5 ± 1.0 kW: likely"
+    assert banded(0.5, 1.0, "kW", sourced=False) == "0.5 ± 1.0 kW: unclear"
 
 
 def test_the_sentence_has_no_digit_that_the_band_does_not_allow():
     row = DoubtRow("section_moment", "section moment", 0.01, "x", power=52e3, change=6.3e3)
     found = Doubt(901.4e3, (row,), against=917.9e3)
     assert found.sentence == "Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure."
+    assert replace(found, sourced=False).sentence.endswith(
+        "It saves 1.8 ± 0.7 %: likely, from estimated data."
+    )
+    light = Doubt(45.37e3, (replace(row, power=1.2e3),))
+    assert light.sentence == "Power 45.4 ± 1.2 kW."
     nothing = Doubt(901.4e3, (replace(row, change=2.7e3),), against=902.3e3)
     assert nothing.sentence == "Power 901 ± 52 kW. It saves 0.1 ± 0.3 %: unclear."
     assert Doubt(901.4e3, (replace(row, change=-1e3),), 880e3).sentence.endswith(
