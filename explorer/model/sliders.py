@@ -183,11 +183,10 @@ def _moved(solution: Solution, name: str, step: float) -> float | None:
 
 
 _NAMED = {
-    ("mass_t", "advance_ratio"): r"there is at (\d+) kg and advance ratio (\d\.\d+)",
-    ("mass_t",): r"(?:up to|is|are) (\d+) kg",
-    ("advance_ratio",): r"advance ratio (\d\.\d+) at this mass",
+    "mass_t": r"(?:is|are) (\d+) kg at this speed",
+    "advance_ratio": r"advance ratio (\d\.\d+) at this mass",
 }
-"""What sentences about a trim that is not found name, by inputs."""
+"""What sentences about a trim that is not found name, by input."""
 
 
 def nearest_trim(
@@ -204,18 +203,14 @@ def nearest_trim(
     [kg], which the sentence counts and the slider does not.
     """
     moved = differing(good, wanted)
-    named = {
-        names: found.groups()
-        for names, pattern in _NAMED.items()
-        if (found := re.search(pattern, sentence))
-    }
-    for names in sorted(named, key=lambda names: moved.isdisjoint(names)):
-        there = wanted
-        for name, value in zip(names, named[names], strict=True):
-            step = slider(name, SI, wanted.aircraft).step
-            value = float(value) - (carried if name == "mass_t" else 0.0)
-            steps = math.floor(value / ROWS[name].input_size / step + 1e-6)
-            there = replace(there, **{name: round(steps * step, 6)})
+    for name in sorted(_NAMED, key=lambda name: name not in moved):
+        found = re.search(_NAMED[name], sentence)
+        if found is None:
+            continue
+        step = slider(name, SI, wanted.aircraft).step
+        value = float(found[1]) - (carried if name == "mass_t" else 0.0)
+        steps = math.floor(value / ROWS[name].input_size / step + 1e-6)
+        there = replace(wanted, **{name: round(steps * step, 6)})
         if trims(there):
             return there
     if not moved or not all(

@@ -108,13 +108,9 @@ def _refused(result: TrimResult) -> str:
         return axial_ring(result.problem.design)
     if result.converged:
         return ""
-    # The last attempt, where nothing trimmed before.
-    near, design = (
-        result.nearest or result,
-        result.problem.design,
-    )
-    there = stalled_parts(near.problem, near.linear.elements)[0]
-    return vortex_ring(design) or failure_sentence(design, result.reached, there)
+    design = result.problem.design
+    stalled = stalled_parts(result.problem, result.linear.elements)[0]
+    return vortex_ring(design) or failure_sentence(design, result.reached, stalled)
 
 
 def _impossible(design: Design, power: PowerBudget) -> str:

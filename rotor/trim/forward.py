@@ -32,6 +32,8 @@ SLOWEST = 1e-4
 FOLLOWING_PASSES = 25
 """Evaluations of the blade elements in one step of continuation: steps that converge take 6 to 20 in nearly all cases,
 and a shorter step costs less than more of them. Our choice."""
+EASY_LOADING = 0.045
+"""C_W/σ, and C_T/σ on a stand, of a light rotor, which trims wherever one does. Our choice."""
 _NEARLY = SolverOptions(
     residual_tolerance=1e-4, torsion_tolerance=1e-4, inflow_tolerance=1e-2, slopes=False
 )
@@ -147,7 +149,7 @@ def trim(
         of_start = guess is start
     assert best is not None
     if options.asked_to_stop:
-        return replace(best, passes=passes, reached=0.0)
+        return replace(best, passes=passes)
     return _continue(problem, best, passes, options, most_stalled)
 
 
@@ -269,7 +271,7 @@ def easier_condition(design: Design, t: float) -> FlightCondition:
     blade_loading = design.weight_coefficient / design.rotor.solidity
     easy_mass = min(
         condition.mass,
-        max(0.045 * condition.mass / max(blade_loading, 1e-9), CONDITION["mass_kg"].low),
+        max(EASY_LOADING * condition.mass / max(blade_loading, 1e-9), CONDITION["mass_kg"].low),
     )
     return replace(
         condition,
@@ -286,20 +288,20 @@ def _easier_stand(stand: Stand, design: Design, t: float) -> Stand:
     if stand.collective is not None:
         return stand
     wanted = min(design.weight_coefficient / design.rotor.solidity, STAND["ct_over_sigma"].high)
-    easy = min(wanted, 0.045)
+    easy = min(wanted, EASY_LOADING)
     return replace(stand, thrust=None, ct_over_sigma=easy + t * (wanted - easy))
 
 
 def _continue(
     problem: Problem, best: TrimResult, passes: int, options: SolverOptions, most_stalled: float
 ) -> TrimResult:
-    """Follow the trim from an easier condition in adaptive steps; where it ends on the way, return how far it came."""
+    """The trim followed from an easier condition in adaptive steps; `best` where it ends on the way."""
     design = problem.design
     easy = _easier(design, 0.0)
     result = newton(easy, first_guess(easy), options)
     passes += result.passes
     if not result.converged:
-        return replace(best, passes=passes, reached=0.0)
+        return replace(best, passes=passes)
     following = replace(options, max_passes=min(options.max_passes, FOLLOWING_PASSES))
     t, step = 0.0, 0.25
     latest, before = (0.0, result), None
@@ -325,4 +327,4 @@ def _continue(
             step *= 0.4
     if t >= 1.0:
         return replace(result, passes=passes, led=True)
-    return replace(best, passes=passes, reached=t, nearest=latest[1] if t > 0.0 else None)
+    return replace(best, passes=passes)

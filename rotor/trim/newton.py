@@ -54,7 +54,8 @@ class SolverOptions(SystemTolerances):
     slopes: bool = True
     """Whether slopes of power will be asked for: then the last evaluation has the partial derivatives."""
     remedy: bool = True
-    """Whether a refusal names the largest mass and speed that trim. To find them takes longer than the trim."""
+    """Whether a refusal names the largest mass and speed that trim, on a stand the largest C_T/σ. To find them takes
+    longer than the trim."""
 
     @property
     def asked_to_stop(self) -> bool:
@@ -161,11 +162,9 @@ class TrimResult:
     passes: int
     """Evaluations of the blade elements."""
     reached: float = 1.0
-    """How far continuation from an easier condition came (1: all the way); in hover C_T over C_W."""
+    """C_T over C_W in hover."""
     factors: Factors | None = None
     """Factors of the last derivatives, where they reduced the residual so much that they are near those of the trim."""
-    nearest: "TrimResult | None" = None
-    """The last trim that continuation found on its way, where it did not come all the way."""
     steady: bool = True
     """Whether axial flow has a steady wake at the collective given."""
     led: bool = False

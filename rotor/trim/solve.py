@@ -17,7 +17,7 @@ from rotor.trim.newton import DEFAULT_OPTIONS, Guess, SolverOptions, newton
 from rotor.trim.reach import largest, too_stalled
 from rotor.trim.secant import steps_ahead
 from rotor.trim.solution import Solution, Status
-from rotor.trim.validity import MOST_STALLED, stalled_sentence
+from rotor.trim.validity import MOST_STALLED, largest_sentence, stalled_sentence
 
 Start = Solution | Guess | None
 
@@ -69,12 +69,13 @@ def analyse(
     found = _trim_branch(require_design(design), start, options, freedoms)
     solution = replace(found.solution, before=_begun(design, start))
     found = Analysis(solution, found.linear)
-    if not solution.converged or design.hovering or not too_stalled(found):
-        return found
-    # Stalled sections carry more of the lift's moment than on rotors that were compared with measurement.
-    ends = largest(solution, options) if options.remedy else (None, None)
-    sentence = stalled_sentence(design, solution.stalled_moment, *ends)
-    return Analysis(replace(solution, status=Status.NOT_CONVERGED, message=sentence), found.linear)
+    if solution.converged and not design.hovering and too_stalled(found):
+        sentence = stalled_sentence(design, solution.stalled_moment)
+        solution = replace(solution, status=Status.NOT_CONVERGED, message=sentence)
+    if not solution.converged and options.remedy and not options.asked_to_stop:
+        remedy = largest_sentence(largest(solution, options))
+        solution = replace(solution, message=f"{solution.message} {remedy}".rstrip())
+    return Analysis(solution, found.linear)
 
 
 def _trim_branch(

@@ -18,7 +18,6 @@ from rotor.design.aircraft import FIXED_SHARE, Stand, in_words
 from rotor.design.design import Design
 from rotor.support.arrays import Array
 from rotor.support.units import power_text
-from rotor.trim.forward import easier_condition
 from rotor.trim.low_speed import hover_share
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.power import HubMoment
@@ -430,20 +429,20 @@ def _largest_twist(elements: BladeElements) -> float:
     return float(twist.flat[np.abs(twist).argmax()])
 
 
-def _share(stalled: float, reached: float) -> str:
-    """How much of the disk is stalled: at the last trim found, or where the last attempt ended."""
-    where = "there" if 0.0 < reached < 1.0 else "in the last attempt"
-    return (
-        f" {100.0 * stalled:.0f} % of the disk is stalled {where}." if stalled > STALL_SHARE else ""
-    )
+def _share(stalled: float) -> str:
+    """How much of the disk was stalled where the last attempt ended."""
+    if stalled <= STALL_SHARE:
+        return ""
+    return f" {100.0 * stalled:.0f} % of the disk is stalled in the last attempt."
 
 
 def failure_sentence(design: Design, reached: float, stalled: float) -> str:
-    """Why a design did not trim, and the remedy."""
+    """Why a design did not trim, and the remedy. reached: in hover the largest C_T over that needed."""
     condition = design.condition
     if condition.stand is not None:
-        return _stand_failure(design, condition.stand, reached, stalled)
-    share, advice = _share(stalled, reached), _advice(design)
+        return _stand_failure(design, condition.stand, stalled)
+    share = _share(stalled)
+    advice = _advice(design)
     what = ", ".join(
         (f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *in_words(design.unusual))
     )
@@ -458,43 +457,49 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
             f"{condition.advance_ratio:.3f}, and these equations hold only up to {math.degrees(LARGEST_TILT):.0f}°: "
             f"{advice}."
         )
-    near = easier_condition(design, reached)
-    how_far = ""
-    if reached > 0.0 and near.advance_ratio == condition.advance_ratio:
-        how_far = f" A trim was found only up to {math.floor(near.mass)} kg."
-    elif reached > 0.0:
-        place = f"{near.mass:.0f} kg and advance ratio {near.advance_ratio:.3f}"
-        how_far = f" The last trim found on the way there is at {place}."
     return (
-        f"Not trimmed: {what} and advance ratio {condition.advance_ratio:.3f} is beyond this rotor.{how_far}{share} "
+        f"Not trimmed: {what} and advance ratio {condition.advance_ratio:.3f} is beyond this rotor.{share} "
         f"{advice[:1].upper()}{advice[1:]}{'' if design.flaps else ', or let the blades flap'}."
     )
 
 
-def stalled_sentence(design: Design, stalled: float, mass: float | None, mu: float | None) -> str:
-    """Why a trim with very much stall has no power, with the largest mass and advance ratio that have one."""
+def stalled_sentence(design: Design, stalled: float) -> str:
+    """Why a trim with very much stall has no power, and the remedy."""
     advice = _advice(design)
-    remedy = f"{advice[:1].upper()}{advice[1:]}."
-    if design.condition.stand is None:
-        largest = [f"{math.floor(mass)} kg at this speed"] if mass is not None else []
-        largest += (
-            [f"advance ratio {math.floor(1e3 * mu) / 1e3:.3f} at this mass"]
-            if mu is not None
-            else []
-        )
-        remedy = (
-            f"The largest that trim are {' and '.join(largest)}." if len(largest) > 1 else remedy
-        )
-        remedy = f"The largest that trims is {largest[0]}." if len(largest) == 1 else remedy
     return (
         f"Not trimmed: {100.0 * stalled:.0f} % of the lift's moment about the hub comes from stalled sections; beyond "
-        f"{100.0 * MOST_STALLED:.0f} % no rotor here was compared with a measurement. {remedy}"
+        f"{100.0 * MOST_STALLED:.0f} % no rotor here was compared with a measurement. {advice[:1].upper()}{advice[1:]}."
     )
 
 
-def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float) -> str:
+@dataclass(frozen=True)
+class Largest:
+    """The largest values at which a refused design trims, each with all else as it is; None where not known."""
+
+    mass_kg: float | None = None
+    mu: float | None = None
+    ct_over_sigma: float | None = None
+
+
+def largest_sentence(largest: Largest) -> str:
+    """`The largest that trims is 13152 kg at this speed.`, never rounded up; empty where nothing is known."""
+    named = list[str]()
+    if largest.mass_kg is not None:
+        named.append(f"{math.floor(largest.mass_kg)} kg at this speed")
+    if largest.mu is not None:
+        named.append(f"advance ratio {math.floor(1e3 * largest.mu) / 1e3:.3f} at this mass")
+    if largest.ct_over_sigma is not None:
+        loading = math.floor(1e4 * largest.ct_over_sigma) / 1e4
+        named.append(f"C_T/σ {loading:.4f} at this advance ratio")
+    if not named:
+        return ""
+    verb = "trim are" if len(named) > 1 else "trims is"
+    return f"The largest that {verb} {' and '.join(named)}."
+
+
+def _stand_failure(design: Design, stand: Stand, stalled: float) -> str:
     """Why a rotor on a test stand did not trim."""
-    share = _share(stalled, reached)
+    share = _share(stalled)
     mu = design.condition.advance_ratio
     what = f"the rotor on the stand has no equilibrium at advance ratio {mu:.3f}"
     if stand.collective is not None:
@@ -503,12 +508,4 @@ def _stand_failure(design: Design, stand: Stand, reached: float, stalled: float)
             "Change the collective or the advance ratio."
         )
     wanted = design.weight_coefficient / design.rotor.solidity
-    how_far = ""
-    if 0.0 < reached < 1.0 and not design.hovering:  # In hover it is the share of the thrust.
-        near = easier_condition(design, reached).stand
-        how_far = (
-            f" The last trim found on the way there is at C_T/σ {near.ct_over_sigma:.4f}."
-            if near is not None
-            else ""
-        )
-    return f"Not trimmed: {what} with C_T/σ {wanted:.4f}.{how_far}{share} Lower the thrust or the advance ratio."
+    return f"Not trimmed: {what} with C_T/σ {wanted:.4f}.{share} Lower the thrust or the advance ratio."

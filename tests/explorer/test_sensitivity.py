@@ -194,10 +194,3 @@ def test_the_nearest_design_that_trims_has_what_its_sentence_names():
         sentence, 100.0
     )
     assert "lb at this speed" in UNITS["Aviation"].in_sliders(sentence)
-    both = nearest_trim(
-        good,
-        wanted,
-        lambda _: True,
-        "The last trim found on the way there is at 9431 kg and advance ratio 0.279.",
-    )
-    assert (both.mass_t, both.advance_ratio) == pytest.approx((9.4, 0.275))

@@ -34,7 +34,7 @@ CHANGED = replace(OPENING, built_outer=-2.0)
 THESIS = Inputs(preset="thesis", **preset_inflow("thesis"))
 STAND = with_rotor(OPENING, "xv15")
 FREE = replace(OPENING, inflow="uniform", stand=StandInputs("free-rotor", tip_mach=0.6))
-SENTENCE = "The rotor is too heavy. The last trim found on the way there is at 9 t."
+SENTENCE = "The rotor is too heavy. The largest that trims is 9 t at this speed."
 
 
 @cache

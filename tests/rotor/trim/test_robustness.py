@@ -49,20 +49,61 @@ def check(solution: Solution) -> None:
         assert solution.figure_of_merit is None or 0.0 < solution.figure_of_merit < 1.0
 
 
-@pytest.mark.slow
-def test_the_largest_mass_that_a_failure_names_is_where_trims_end():
-    """Where stalled sections carry too much of the lift's moment; the equations hold a little further."""
-    beyond = solve(make_design(mu=0.2, mass_kg=18_000.0))
-    reached = re.search(r"A trim was found only up to (\d+) kg\.", beyond.message)
-    assert reached
-    assert solve(make_design(mu=0.2, mass_kg=0.99 * float(reached[1]))).converged
-    assert not solve(make_design(mu=0.2, mass_kg=1.06 * float(reached[1]))).converged
-    lost = solve(make_design(mu=0.2, mass_kg=15_400.0))
-    found = re.search(r"The largest that trims? (?:is|are) (\d+) kg", lost.message)
-    assert found
-    largest = float(found[1])
-    assert solve(make_design(mu=0.2, mass_kg=0.99 * largest)).converged
-    assert not solve(make_design(mu=0.2, mass_kg=1.02 * largest)).converged
+NAMED = {
+    "mass_kg": r"(\d+) kg at this speed",
+    "mu": r"advance ratio (\d\.\d+) at this mass",
+}
+"""What refusals name."""
+
+
+@pytest.mark.parametrize(
+    ("fixed", "name", "asked"),
+    [
+        # Stalled, and no trim at all.
+        ({"mu": 0.3}, "mass_kg", (14_000.0, 16_000.0, 20_000.0, 26_000.0)),
+        pytest.param({"mu": 0.2}, "mass_kg", (15_400.0, 18_000.0), marks=pytest.mark.slow),
+        ({"rotor": "gazelle", "preset": "thesis"}, "mass_kg", (4_200.0, 5_000.0)),
+        # A light rotor at this speed tilts its shaft too far.
+        pytest.param({"mu": 0.5}, "mass_kg", (9_800.0, 12_000.0), marks=pytest.mark.slow),
+        # Stalled, and beyond the largest collective.
+        pytest.param({"mass_kg": 9_500.0}, "mu", (0.5, 0.55, 0.6), marks=pytest.mark.slow),
+        ({"rotor": "gazelle", "preset": "thesis", "mass_kg": 3_900.0}, "mu", (0.24, 0.3)),
+    ],
+    ids=str,
+)
+def test_the_largest_value_that_a_refusal_names_is_where_trims_end_whatever_was_asked(
+    fixed: dict[str, Any], name: str, asked: tuple[float, ...]
+):
+    def solved(value: float) -> Solution:
+        arguments: dict[str, Any] = {**fixed, name: value}
+        return solve(make_design(**arguments))
+
+    messages = [solved(value).message for value in asked]
+    found = [re.search(NAMED[name], message) for message in messages]
+    named = {each and each[1] for each in found}
+    assert len(named) == 1, messages
+    (text,) = named
+    assert text, messages
+    largest = float(text)
+    assert solved(largest).converged
+    assert not solved(1.02 * largest).converged
+
+
+def test_the_largest_loading_that_a_refusal_names_on_a_stand_does_not_depend_on_that_asked_for():
+    design = make_design(mu=0.25, trim="wind-tunnel", stand={"ct_over_sigma": 0.14})
+
+    def loaded(value: float) -> Solution:
+        stand = Stand(ct_over_sigma=value)
+        return solve(replace(design, condition=replace(design.condition, stand=stand)))
+
+    named = {
+        match[1]
+        for value in (0.14, 0.18, 0.25)
+        for match in re.finditer(r"C_T/σ (\d\.\d+) at this advance ratio", loaded(value).message)
+    }
+    (text,) = named
+    assert loaded(float(text)).converged
+    assert not loaded(1.02 * float(text)).converged
 
 
 @given(
