@@ -251,7 +251,7 @@ def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> Markup:
 _CHIPS = {
     FlowRegion.IDLE: "back",
     FlowRegion.ATTACHED: "good",
-    FlowRegion.STALLED: "bad",
+    FlowRegion.SEPARATED: "bad",
     FlowRegion.REVERSE: "back",
     FlowRegion.DIVERGED: "bad",
 }

@@ -49,7 +49,7 @@ def lift_chart(probe: Probe) -> Chart:
     if not probe.idle:
         series.append(Points("", (degrees,), (probe.cl,), NOW, words=("this element",)))
     ends = [math.degrees(end) for end in probe.stall or ()]
-    dashed = "; dashed: stall" if ends else ""
+    dashed = "; dashed: static stall" if ends else ""
     return Chart(
         "Lift curve",
         Axis(

@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import replace
 from functools import lru_cache
-from typing import Literal
+from typing import Literal, NamedTuple
 
 import numpy as np
 from scipy.interpolate import CubicSpline
@@ -16,8 +16,10 @@ from scipy.interpolate import CubicSpline
 from explorer.charts.curve_bands import Bands, band_along
 from explorer.charts.plots import SWEEP, PowerCurve, Range, alpha_along, angles_along, held_range
 from explorer.model.units import KILOWATT, SI, Units, number
+from explorer.picture.picture import at_azimuth
 from rotor import Design, Solution
-from rotor.support.arrays import Array
+from rotor.aero.display import STALLED
+from rotor.support.arrays import Array, Booleans
 from rotor.support.chart import Axis, Band, Chart, Line, Points, Rule, Values
 
 Role = Literal["this", "reference", "pinned", "limit", "saving", "earlier", "flown"]
@@ -300,7 +302,10 @@ def alpha_chart(
     previous: Range | None = None,
     compared: Role = "reference",
 ) -> Chart:
-    """α along the reference blade with the stall limits, and the least margin before stall; gaps in reverse flow."""
+    """α along the reference blade with the static stall angles; gaps in reverse flow.
+
+    What lies between is shaded where α is past a static angle, in the colour of stall where the flow is separated.
+    """
     lower, upper, alpha = angles_along(solution, azimuth_deg)
     r = solution.disk.r
     lines, seen = list[Line](), [alpha]
@@ -312,21 +317,82 @@ def alpha_chart(
     finite = np.concatenate(seen)
     finite = np.clip(finite[np.isfinite(finite)], -15.0, 20.0)
     low, high = (float(finite.min()), float(finite.max())) if len(finite) else (0.0, 0.0)
-    value, note = (
-        _margin(r, np.minimum(upper - alpha, alpha - lower))
-        if solution.design.models.stall
-        else ("", "")
-    )
+    bands, value, note = list[Band](), "", ""
+    if solution.design.models.stall:
+        blade = _blade_flow(solution, azimuth_deg)
+        bands = _past_static_bands(blade)
+        value, note = _stall_words(blade)
     y_range = held_range(previous, min(low, -2.0), max(high, 14.0))
     limits = _mostly_seen([role_line("limit", r, limit) for limit in (lower, upper)], y_range)
     return Chart(
         "Angle of attack",
         _ALONG,
         Axis("° on the red blade", y_range),
-        (*limits, *lines),
+        (*bands, *limits, *lines),
         value=value,
         note=note,
     )
+
+
+class _BladeFlow(NamedTuple):
+    """The flow along a blade at one azimuth, (radii,) each; NaN in reverse flow."""
+
+    r: Array
+    """y/R"""
+    alpha: Array
+    """[°]"""
+    static: Array
+    """The static stall angle on the side of α [°]."""
+    margin: Array
+    """To the static stall angle [°], negative past it."""
+    separated: Booleans
+    past_static: Booleans
+    """Past the static stall angle with the flow still attached."""
+
+
+_ALONG_BLADE = 240
+"""Even radii, besides those of the elements, at which regions along a blade are told apart."""
+
+
+def _blade_flow(solution: Solution, azimuth_deg: float) -> _BladeFlow:
+    disk = solution.disk
+    r = np.union1d(disk.r, np.linspace(disk.r[0], disk.r[-1], _ALONG_BLADE))
+    lower, upper, alpha = (
+        np.interp(r, disk.r, values) for values in angles_along(solution, azimuth_deg)
+    )
+    margin = np.minimum(upper - alpha, alpha - lower)
+    separated = margin < 0.0
+    if disk.unsteady is not None:
+        separation = at_azimuth(solution, disk.unsteady.separation, math.radians(azimuth_deg))
+        separated = (np.interp(r, disk.r, separation) < STALLED) & np.isfinite(alpha)
+    return _BladeFlow(
+        r=r,
+        alpha=alpha,
+        static=np.where(alpha > 0.5 * (lower + upper), upper, lower),
+        margin=margin,
+        separated=separated,
+        past_static=(margin < 0.0) & ~separated,
+    )
+
+
+def _past_static_bands(blade: _BladeFlow) -> list[Band]:
+    """The areas between α and the static stall angle, one for each stretch of the blade."""
+    bands = list[Band]()
+    for where, colour in (
+        (blade.past_static, "var(--rx-dim)"),
+        (blade.separated, LOOKS["limit"][0]),
+    ):
+        for part in _stretches(where):
+            x, alpha, static = blade.r[part], blade.alpha[part], blade.static[part]
+            low, high = np.minimum(alpha, static), np.maximum(alpha, static)
+            bands.append(Band("", x, low, high, colour))
+    return bands
+
+
+def _stretches(where: Booleans) -> list[slice]:
+    """The runs of true values."""
+    ends = np.flatnonzero(np.diff(np.concatenate(([False], where, [False]))))
+    return [slice(int(first), int(last)) for first, last in ends.reshape(-1, 2)]
 
 
 def lift_chart(
@@ -357,14 +423,22 @@ def lift_per_metre(solution: Solution) -> Array:
     return solution.disk.dct.mean(axis=1) * solution.design.thrust_per_metre
 
 
-def _margin(r: Array, margin: Array) -> tuple[str, str]:
-    """The least margin before stall, or the stretch that is stalled, as value and note of a chart."""
-    known = np.isfinite(margin)
-    if not known.any():
+def _stall_words(blade: _BladeFlow) -> tuple[str, str]:
+    """Value and note of a chart: whether a blade has separated flow, is past the static angle, or how far before it."""
+    if blade.separated.any():
+        return "separated", f"Separated between {_ends(blade.r, blade.separated)} R."
+    if blade.past_static.any():
+        return (
+            "past the static angle",
+            f"Past the static stall angle, still attached, between {_ends(blade.r, blade.past_static)} R.",
+        )
+    if not np.isfinite(blade.margin).any():
         return "", ""
-    stalled = known & (margin < 0.0)
-    if stalled.any():
-        inner, outer = float(r[stalled].min()), float(r[stalled].max())
-        return "stalled", f"Stalled between {inner:.2f} and {outer:.2f} R."
-    at = int(np.nanargmin(margin))
-    return f"{number(float(margin[at]), 1)}° to stall", f"Least margin at {r[at]:.2f} R."
+    at = int(np.nanargmin(blade.margin))
+    margin = number(float(blade.margin[at]), 1)
+    return f"{margin}° to static stall", f"Least margin at {blade.r[at]:.2f} R."
+
+
+def _ends(r: Array, where: Booleans) -> str:
+    """The first and the last radius of a region: `0.42 and 0.55`."""
+    return f"{float(r[where].min()):.2f} and {float(r[where].max()):.2f}"

@@ -6,8 +6,10 @@ The disk has its field, marked regions, azimuth marks, flight arrow, colour bar 
 import base64
 import math
 from collections.abc import Iterable
+from typing import NamedTuple
 
 import msgspec
+import numpy as np
 
 from explorer.colours import RIM, DiskInk, Rgb, colour_map, css
 from explorer.model.units import SI, Units
@@ -244,32 +246,47 @@ def bar_drawing(
     )
 
 
-def key_marks(solution: Solution) -> list[tuple[str, Rgb, bool]]:
-    """The marked regions that the disk has: title, colour of the outline, and whether it is dashed."""
+class KeyMark(NamedTuple):
+    """A marked region in the key of a disk."""
+
+    title: str
+    colour: Rgb
+    """Of the outline."""
+    dashes: str | None
+    """Of the outline, as SVG writes them; None for a solid line."""
+
+
+def key_marks(solution: Solution) -> list[KeyMark]:
+    """The marked regions that the disk has."""
     drawn, grid, ink = DrawnSolution(solution), polar_grid(solution.disk, 80, 240), DiskInk()
     codes = region_codes(drawn, grid, ALL_MARKS, 0.02)
-    regions = (
-        (MarkedRegion.REVERSE, "reverse flow", ink.reverse_flow, False),
-        (MarkedRegion.STALLED, "stall", ink.stall, False),
-        (MarkedRegion.DASH, "drag divergence", ink.drag_divergence, True),
-    )
-    return [mark[1:] for mark in regions if codes is not None and (codes == mark[0]).any()]
+    has = set[int]() if codes is None else set(np.unique(codes).tolist())
+    shown = list[KeyMark]()
+    if MarkedRegion.REVERSE in has:
+        shown.append(KeyMark("reverse flow", ink.reverse_flow, None))
+    if MarkedRegion.SEPARATED in has:
+        shown.append(KeyMark("separated", ink.stall, None))
+    if solution.past_static_area > 0.0:
+        shown.append(KeyMark("past the static angle", ink.stall, "1.5 2.5"))
+    if MarkedRegion.DASH in has:
+        shown.append(KeyMark("drag divergence", ink.drag_divergence, "4 3"))
+    return shown
 
 
 def key_entries(solution: Solution) -> list[tuple[str, Markup]]:
     """Key of the marked regions: title, and a swatch 14 × 8 as the inside of an SVG."""
     return [
         (
-            title,
+            mark.title,
             tag(
                 "path",
                 d="M0,4h14",
-                stroke=css(ink),
+                stroke=css(mark.colour),
                 stroke_width=3,
-                stroke_dasharray="4 3" if dashed else None,
+                stroke_dasharray=mark.dashes,
             ),
         )
-        for title, ink, dashed in key_marks(solution)
+        for mark in key_marks(solution)
     ]
 
 

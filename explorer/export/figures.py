@@ -213,7 +213,7 @@ def along(solution: Solution) -> Markup:
     for degrees, colour in AZIMUTHS.items():
         lower, upper, angle = plots.angles_along(solution, float(degrees))
         if degrees == 270:
-            names = zip(("stall at ψ 270°", ""), (lower, upper), strict=True)
+            names = zip(("static stall angle at ψ 270°", ""), (lower, upper), strict=True)
             alpha += [Line(name, r, limit, BASELINE, dashes=True) for name, limit in names]
         alpha.append(Line(f"ψ {degrees}°", r, angle, colour))
         cl = np.where(np.isfinite(angle), plots.lift_along(solution, float(degrees)), math.nan)

@@ -125,7 +125,7 @@ def _rotor(made: Fitted, drawn: list[_FittedField], units: Units) -> Markup:
         role="img",
         aria_label="The disk",
     )
-    regions = (("stall", "stall"), *([("reverse", "reverse flow")] if lines else []))
+    regions = (("stall", "separated"), *([("reverse", "reverse flow")] if lines else []))
     key = [tag("span", tag("i", class_=name), title) for name, title in regions]
     bars = [
         tag("div", bar(one.field, one.range, f"bar-{k}"), data_scale=k)

@@ -75,7 +75,9 @@ def comparison(report: DesignReport) -> Markup:
         ),
         _row("Induced factor κ", [number(e.solution.induced_power_factor, 3) for e in report.all]),
         _row("Efficiency", [_efficiency_number(e.solution, "FM ", "L/De ") for e in report.all]),
-        _row("Stalled area", [f"{number(100 * e.solution.stalled_area, 1)} %" for e in report.all]),
+        _row(
+            "Separated area", [f"{number(100 * e.solution.stalled_area, 1)} %" for e in report.all]
+        ),
     ]
     return tag(
         "section.comparison",
@@ -122,7 +124,11 @@ def trim(solution: Solution) -> Markup:
             _efficiency_number(solution),
         ),
         ("Reverse flow", f"{number(100 * solution.reverse_flow_area, 1)} % of the disk"),
-        ("Stalled", f"{stalled[0]} % of the disk, {stalled[1]} % of the thrust"),
+        ("Separated", f"{stalled[0]} % of the disk, {stalled[1]} % of the thrust"),
+        (
+            "Past the static angle, attached",
+            f"{number(100.0 * solution.past_static_area, 1)} % of the disk",
+        ),
     ]
     return _table("Trim", rows)
 

@@ -308,6 +308,9 @@ class ViewState:
     """Whether the disk shows B − A while a design is pinned."""
     reverse_flow: bool = True
     stall: bool = True
+    """Whether separated flow is marked on the disk."""
+    past_static: bool = True
+    """Whether what is past the static stall angle with the flow attached is."""
     drag_divergence: bool = True
     dark: bool = False
     units: str = "SI"

@@ -34,14 +34,14 @@ _CLEAR = 0
 _LEVELS = 112
 _HATCHED = _LEVELS
 """Added to the entry of a colour: the same under a stripe."""
-_VOID, _REVERSE, _REVERSE_RIM, _DASH, _STALL_RIM = range(1 + 2 * _LEVELS, 6 + 2 * _LEVELS)
-_FIRST_EDGE = _STALL_RIM + 1
+_VOID, _REVERSE, _REVERSE_RIM, _DASH, _SEPARATED_RIM = range(1 + 2 * _LEVELS, 6 + 2 * _LEVELS)
+_FIRST_EDGE = _SEPARATED_RIM + 1
 _EDGE_COLOURS = 7
 _EDGE_ALPHAS = (0.25, 0.5, 0.75)
 _STRIPES = 26.0
 """Stripes of the hatch per radius."""
 _STRIPE_SHARE = 0.36
-_REGION_ENTRIES = np.array([0, 0, _STALL_RIM, _DASH, _REVERSE, _REVERSE_RIM], dtype=np.uint8)
+_REGION_ENTRIES = np.array([0, 0, _SEPARATED_RIM, _DASH, _REVERSE, _REVERSE_RIM], dtype=np.uint8)
 """By `MarkedRegion`; 0 for those that keep the colour of the field."""
 REACH = 1.2
 """Half the edge of the picture with the words, in radii."""
@@ -128,8 +128,8 @@ def indices(
     if void is not None:
         np.copyto(codes, _VOID, where=void)
     if regions is not None:
-        codes += ((regions == MarkedRegion.STALLED) & (codes <= _LEVELS)) * np.uint8(_HATCHED)
-        np.copyto(codes, _REGION_ENTRIES.take(regions), where=regions > MarkedRegion.STALLED)
+        codes += ((regions == MarkedRegion.SEPARATED) & (codes <= _LEVELS)) * np.uint8(_HATCHED)
+        np.copyto(codes, _REGION_ENTRIES.take(regions), where=regions > MarkedRegion.SEPARATED)
     image: Bytes = paint(codes, raster.index, raster.covered, raster.kind, _entries(), size * size)
     return image.reshape(size, size)
 
@@ -179,7 +179,7 @@ def palette(scheme: Scheme, ink: DiskInk | None) -> Bytes:
     entries[_REVERSE] = (*ink.reverse_flow, 238)
     entries[_REVERSE_RIM] = (*ink.reverse_flow_rim, 255)
     entries[_DASH] = (*ink.drag_divergence, 255)
-    entries[_STALL_RIM] = (*ink.stall, 255)
+    entries[_SEPARATED_RIM] = (*ink.stall, 255)
     for colour in range(_EDGE_COLOURS):
         source = colours[colour * (_LEVELS - 1) // (_EDGE_COLOURS - 1)]
         for step, share in enumerate(_EDGE_ALPHAS):

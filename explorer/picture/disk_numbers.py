@@ -41,6 +41,7 @@ def disk_numbers(
     drawn, (low, high) = DrawnSolution(solution), colour_range
     flow = drawn.flow(grid)
     values = 1.0 + 254.0 * np.clip((field.sample(drawn, grid) - low) / (high - low), 0.0, 1.0)
+    past_static = flow.past_static if marks.past_static else None
     absent = None if field.absent is None else field.absent(drawn, grid)
     if not field.exists(drawn):
         absent = np.ones(grid.shape, dtype=bool)
@@ -58,6 +59,7 @@ def disk_numbers(
             _margin("attached", flow.attached) if marks.stall else None,
             _margin("diverging", divergence_margin(drawn, grid)) if marks.drag_divergence else None,
         ],
+        "past": _margin("attached", past_static) if past_static is not None else None,
     }
 
 

@@ -15,12 +15,13 @@ from explorer.model.units import number
 from explorer.parts.stage import RidePart
 from explorer.picture.blade_mesh import blade_axes_outline
 from explorer.picture.camera_views import RIDE_EYE, RIDE_LOOK, RIDE_VIEW
-from explorer.picture.polar import DRAG_DIVERGENCE, chord_of, stall_angles
+from explorer.picture.polar import chord_of, stall_angles
 from explorer.text.status import section_title
 from rotor import Solution
 from rotor.aero.display import STALLED
 from rotor.aero.elements import Unsteady
 from rotor.aero.problem import LOW_MACH
+from rotor.airfoil.section_table import DRAG_DIVERGENCE
 from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_delay import delay_gain, delayed_lift
 from rotor.airfoil.stall_onset import unstalled
@@ -33,7 +34,8 @@ _OUTLINE = 61
 
 class FlowRegion(Enum):
     ATTACHED = "attached"
-    STALLED = "stalled"
+    SEPARATED = "separated"
+    PAST_STATIC = "past the static angle, attached"
     REVERSE = "reverse flow"
     IDLE = "reverse flow, left out"
     DIVERGED = "drag divergence"
@@ -110,7 +112,7 @@ class Probe:
     power: float
     """Ω y times the pull [W/m]."""
     stall: tuple[float, float] | None
-    """Negative and positive stall angle, as the disk marks them [rad]; None where sections do not stall."""
+    """Negative and positive static stall angle [rad]; None where sections do not stall."""
     cd_mach: float
     """∂C_d/∂M"""
     idle: bool
@@ -125,14 +127,15 @@ class Probe:
 
     @property
     def stall_margin(self) -> float | None:
-        """Angle of attack left before stall [rad]; None in reverse flow, where it means nothing, and without stall."""
+        """Angle of attack left before the static stall angle [rad]; None in reverse flow, where it means nothing, and
+        without stall."""
         if self.u_t < 0.0 or self.stall is None:
             return None
         return min(self.stall[1] - self.alpha, self.alpha - self.stall[0])
 
     @property
     def stall_share(self) -> float | None:
-        """α over the stall angle on its side; None where there is no margin."""
+        """α over the static stall angle on its side; None where there is no margin."""
         if self.u_t < 0.0 or self.stall is None:
             return None
         return max(self.alpha / self.stall[1], self.alpha / self.stall[0])
@@ -141,14 +144,26 @@ class Probe:
     def region(self) -> FlowRegion:
         if self.u_t < 0.0:
             return FlowRegion.IDLE if self.idle else FlowRegion.REVERSE
-        margin = self.stall_margin
-        if (
-            (margin is not None and margin < 0.0)
-            if self.unsteady is None
-            else self.unsteady.separation < STALLED
-        ):
-            return FlowRegion.STALLED
+        if self.separated:
+            return FlowRegion.SEPARATED
+        if self.past_static:
+            return FlowRegion.PAST_STATIC
         return FlowRegion.DIVERGED if self.cd_mach > DRAG_DIVERGENCE else FlowRegion.ATTACHED
+
+    @property
+    def past_static(self) -> bool:
+        """Whether the angle of attack is past the static stall angle, outside reverse flow."""
+        margin = self.stall_margin
+        return margin is not None and margin < 0.0
+
+    @property
+    def separated(self) -> bool:
+        """Whether the flow is separated, outside reverse flow."""
+        if self.u_t < 0.0:
+            return False
+        if self.unsteady is None:
+            return self.past_static
+        return self.unsteady.separation < STALLED
 
 
 def probe(solution: Solution, r: float, psi: float) -> Probe:

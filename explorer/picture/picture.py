@@ -311,7 +311,7 @@ def make_picture(
 
 
 def marks_of(view: ViewState) -> RegionMarks:
-    return RegionMarks(view.stall, view.reverse_flow, view.drag_divergence)
+    return RegionMarks(view.stall, view.past_static, view.reverse_flow, view.drag_divergence)
 
 
 def page_disk_png(

@@ -3,6 +3,7 @@
 import base64
 import math
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -20,10 +21,10 @@ from explorer.picture.polar import (
     Single,
     divergence_margin,
     polar_grid,
-    region_masks,
     stall_angles,
 )
 from rotor import Solution
+from rotor.aero.display import STALLED, Regions
 from rotor.support.arrays import Array
 from rotor.support.chart import AZIMUTH, Axis, Chart, drawn_chart
 
@@ -49,14 +50,26 @@ def reverse_flow_segments(solution: Solution) -> Array:
     return np.stack((points[:-1], points[1:]), axis=1)[keep]
 
 
-def stall_segments(solution: Solution) -> Array:
-    """Where stall begins at positive or negative angles of attack, reverse flow left out; (n, 2, 2), in radii.
+def separated_segments(solution: Solution) -> Array:
+    """The edge of separated flow at positive or negative angles of attack, reverse flow left out; (n, 2, 2), in radii.
 
     That is the stall angle, or with dynamic stall the separation point of static stall.
     """
     grid = polar_grid(solution.disk, *_OUTLINED)
     left = RefinedFlow(solution, grid).attached
     return _outside_reverse_flow(contour(grid, left.astype(np.float64), 0.0), solution, 0.0)
+
+
+def past_static_segments(solution: Solution) -> Array:
+    """The edge of the region past the static stall angle with the flow still attached; (n, 2, 2), in radii.
+
+    Reverse flow is left out. Steady sections have none.
+    """
+    grid = polar_grid(solution.disk, *_OUTLINED)
+    past = RefinedFlow(solution, grid).past_static
+    if past is None:
+        return np.zeros((0, 2, 2))
+    return _outside_reverse_flow(contour(grid, past.astype(np.float64), 0.0), solution, 0.0)
 
 
 def drag_divergence_segments(solution: Solution) -> Array:
@@ -137,14 +150,42 @@ def joined_lines(segments: Array) -> list[Array]:
 
 _RADII, _AZIMUTHS = 40, 120
 """Points of the field under the pointer."""
-_FINE = 120, 480
-"""Points at which shares of area and lift are summed."""
-OUTLINES: dict[str, tuple[str, Callable[[Solution], Array]]] = {
-    "stall": ("Stall", stall_segments),
-    "reverse_flow": ("Reverse flow", reverse_flow_segments),
-    "drag_divergence": ("Drag divergence", drag_divergence_segments),
+
+
+@dataclass(frozen=True)
+class Region:
+    """A region of the disk: title, outline, and its parts of disk and thrust."""
+
+    title: str
+    outline: Callable[[Solution], Array]
+    """Segments (n, 2, 2), in radii."""
+    share: Callable[[Regions], tuple[float, float]]
+    """Parts of the disk πR² and of the thrust."""
+
+
+REGIONS = {
+    "stall": Region(
+        "Separated",
+        separated_segments,
+        lambda of: (of.separated, of.separated_thrust),
+    ),
+    "past_static": Region(
+        "Past the static angle",
+        past_static_segments,
+        lambda of: (of.past_static, of.past_static_thrust),
+    ),
+    "reverse_flow": Region(
+        "Reverse flow",
+        reverse_flow_segments,
+        lambda of: (of.reverse_flow, of.reverse_flow_thrust),
+    ),
+    "drag_divergence": Region(
+        "Drag divergence",
+        drag_divergence_segments,
+        lambda of: (of.drag_divergence, of.drag_divergence_thrust),
+    ),
 }
-"""Title and outline of each region, by its switch in `ViewState`."""
+"""By the switch of `ViewState` that shows it."""
 
 
 def plan(
@@ -205,35 +246,22 @@ def around_chart(solution: Solution) -> Chart:
 
 
 def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> list[PlanRegion]:
-    shares = region_shares(solution)
-    regions = list[PlanRegion]()
-    for name, (title, segments) in OUTLINES.items():
-        lines = outline(segments(solution)) if getattr(view, name) else []
-        before = outline(segments(pinned)) if pinned is not None and getattr(view, name) else []
+    shown = list[PlanRegion]()
+    for name, region in REGIONS.items():
+        if not getattr(view, name):
+            continue
+        lines = outline(region.outline(solution))
+        before = [] if pinned is None else outline(region.outline(pinned))
         if not lines and not before:
             continue
-        area, thrust = shares[name]
-        words = f"{number(100.0 * area, 1)} % area · {number(100.0 * thrust, 1)} % thrust"
-        regions.append(PlanRegion(name, title, words, lines, before))
-    return regions
+        shown.append(PlanRegion(name, region.title, region_words(solution, name), lines, before))
+    return shown
 
 
-def region_shares(solution: Solution) -> dict[str, tuple[float, float]]:
-    """Parts of the disk πR² and of the thrust in each region, by name; those in stall are the solution's. Thrust may be
-    negative there."""
-    grid = polar_grid(solution.disk, *_FINE)
-    thrust = grid.refine(solution.disk.dct)
-    area = np.broadcast_to(grid.r[:, None], thrust.shape)
-    rings, steps = (grid.r[1] - grid.r[0]), 2.0 * math.pi / len(grid.psi)
-    total = float(np.sum(thrust))
-    shares = {
-        name: (
-            float(np.sum(area[inside])) * rings * steps / math.pi,
-            float(np.sum(thrust[inside])) / total,
-        )
-        for name, inside in region_masks(DrawnSolution(solution), grid).items()
-    }
-    return shares | {"stall": (solution.stalled_area, solution.stalled_thrust)}
+def region_words(solution: Solution, name: str) -> str:
+    """The parts of the disk and of the thrust in a region: `1.4 % area · −0.1 % thrust`."""
+    area, thrust = REGIONS[name].share(solution.regions)
+    return f"{number(100.0 * area, 1)} % area · {number(100.0 * thrust, 1)} % thrust"
 
 
 def outline(segments: Array) -> list[list[list[float]]]:
@@ -244,13 +272,16 @@ def outline(segments: Array) -> list[list[list[float]]]:
 
 
 def _values(solution: Solution) -> StationValues:
-    """Angles [°], velocities over ΩR, and coefficients, as `probe` reads them."""
+    """Angles [°], velocities over ΩR, and coefficients, as `probe` reads them; in unsteady flow also how far the
+    separation point is above that of static stall [chords]."""
     disk = solution.disk
     ahead = disk.pitch_of_alpha - disk.theta
     lower, upper = stall_angles(solution)
     angles = {"theta": disk.theta, "ahead": ahead, "lower": lower, "upper": upper}
     tables = {name: np.degrees(each) for name, each in angles.items()}
     tables |= {"u_t": disk.u_t, "u_p": disk.u_p, "mach": disk.mach, "cl": disk.cl}
+    if disk.unsteady is not None:
+        tables["attached"] = disk.unsteady.separation - STALLED
     steps = {name: packed(np.broadcast_to(each, disk.mach.shape)) for name, each in tables.items()}
     return StationValues(
         [round(r, 6) for r in disk.r.tolist()], round(math.degrees(disk.psi[0]), 6), steps

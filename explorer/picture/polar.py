@@ -1,6 +1,6 @@
 """From the solver's (elements, azimuths) grid to a finer polar grid: smooth, periodic, sums of four neighbours.
 
-Regions marked on it are codes: stall, reverse flow, drag divergence.
+Regions marked on it are codes: separated, past the static stall angle, reverse flow, drag divergence.
 """
 
 import math
@@ -18,6 +18,7 @@ from rotor import Solution
 from rotor.aero.display import STALLED
 from rotor.aero.problem import LOW_MACH
 from rotor.aero.section import arctangent
+from rotor.airfoil.section_table import DRAG_DIVERGENCE
 from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_delay import delay_gain, delayed_stall
 from rotor.design.blade import Rotor
@@ -282,15 +283,27 @@ class RefinedFlow:
 
     @cached_property
     def attached(self) -> Single:
-        """Negative where stalled: the margin, or with dynamic stall how far f″ is above that of static stall."""
+        """Negative where the flow is separated: the margin, or with dynamic stall how far f″ is above that of static
+        stall."""
         unsteady = self._solution.disk.unsteady
         if unsteady is None:
             return self.margin
         return self._grid.refine_all((unsteady.separation,))[0] - np.float32(STALLED)
 
     @cached_property
+    def past_static(self) -> Single | None:
+        """Negative past the static stall angle where the flow is still attached; None for steady
+        sections, where it never is.
+
+        It is zero along the whole edge of that region, also where it ends at separated flow.
+        """
+        if self._solution.disk.unsteady is None:
+            return None
+        return np.maximum(self.margin, -self.attached)
+
+    @cached_property
     def margin(self) -> Single:
-        """Angle left before stall [rad]; negative where stalled.
+        """Angle left before the static stall angle [rad]; negative past it.
 
         It falls by a radian within one element beside reverse flow; the stall angles do not.
         """
@@ -313,22 +326,22 @@ class DrawnSolution:
 
 Bytes = NDArray[np.uint8]
 
-DRAG_DIVERGENCE = 0.1
-"""∂C_d/∂M that marks drag divergence."""
 _SLOPE_LIMIT = 0.5
 """Steeper slopes belong to stall and are cut off before smoothing."""
 _SMOOTHING = (0.7, 1.2)
 """Smoothing of ∂C_d/∂M, in elements and azimuths: the table's slope jumps from cell to cell."""
 CLEAR_OF_REVERSE = 0.055
-"""U_T/ΩR below which neither stall nor drag divergence is marked: there is no lift to lose."""
+"""U_T/ΩR below which only reverse flow is marked: there is no lift to lose."""
 _DASHES = 96
 _DASH_SHARE = 0.58
+_DOTS = 160
+_DOT_SHARE = 0.45
 
 
 class MarkedRegion(IntEnum):
     NONE = 0
-    STALLED = 1
-    STALL_RIM = 2
+    SEPARATED = 1
+    SEPARATED_RIM = 2
     DASH = 3
     REVERSE = 4
     REVERSE_RIM = 5
@@ -337,11 +350,12 @@ class MarkedRegion(IntEnum):
 @dataclass(frozen=True)
 class RegionMarks:
     stall: bool = True
+    past_static: bool = True
     reverse_flow: bool = True
     drag_divergence: bool = True
 
 
-ALL_MARKS, NO_MARKS = RegionMarks(), RegionMarks(False, False, False)
+ALL_MARKS, NO_MARKS = RegionMarks(), RegionMarks(False, False, False, False)
 
 
 def region_codes(
@@ -360,10 +374,12 @@ def region_codes(
     def line(region: MarkedRegion, values: Single, where: Booleans, part: float) -> None:
         mark_line(codes, region.value, values, where, part * half_width, grid.r)
 
+    if marks.past_static and flow.past_static is not None:
+        line(MarkedRegion.SEPARATED_RIM, flow.past_static, clear & _dots(grid), 0.8)
     if marks.stall:
         attached = flow.attached
-        mark_below(codes, MarkedRegion.STALLED.value, attached, clear)
-        line(MarkedRegion.STALL_RIM, attached, clear, 0.8)
+        mark_below(codes, MarkedRegion.SEPARATED.value, attached, clear)
+        line(MarkedRegion.SEPARATED_RIM, attached, clear, 0.8)
     if marks.drag_divergence:
         line(MarkedRegion.DASH, divergence_margin(drawn, grid), clear & _dashes(grid), 1.0)
     if marks.reverse_flow:
@@ -375,17 +391,28 @@ def region_codes(
 
 @lru_cache(maxsize=4)
 def _dashes(grid: PolarGrid) -> Booleans:
-    """Where a dashed line is drawn, also where it runs along a radius; not at the very tip."""
-    dash = (
-        grid.psi * (_DASHES / (2.0 * math.pi)) + 0.5 * _DASHES / math.pi * grid.r[:, None]
-    ) % 1.0 < _DASH_SHARE
-    return dash & (grid.r[:, None] < 0.995)
+    """Where a dashed line is drawn; not at the very tip."""
+    return _broken(grid, _DASHES, _DASH_SHARE) & (grid.r[:, None] < 0.995)
+
+
+@lru_cache(maxsize=4)
+def _dots(grid: PolarGrid) -> Booleans:
+    """Where a dotted line is drawn."""
+    return _broken(grid, _DOTS, _DOT_SHARE)
+
+
+def _broken(grid: PolarGrid, marks: int, share: float) -> Booleans:
+    """Where a line of so many marks to a turn is drawn, also where it runs along a radius; share: of mark and gap."""
+    phase = grid.psi * (marks / (2.0 * math.pi)) + 0.5 * marks / math.pi * grid.r[:, None]
+    return phase % 1.0 < share
 
 
 def divergence_margin(drawn: DrawnSolution, grid: PolarGrid) -> Single:
-    """∂C_d/∂M less the value that marks drag divergence, smoothed on the solver's grid; positive beyond it."""
+    """∂C_d/∂M less the value that marks drag divergence, smoothed on the solver's grid; positive beyond it where the
+    flow is attached."""
     slope = filled(drawn.disk, np.clip(drawn.disk.cd_mach, -_SLOPE_LIMIT, _SLOPE_LIMIT))
-    return _smoothing(grid)([slope])[0] - np.float32(DRAG_DIVERGENCE)
+    beyond = _smoothing(grid)([slope])[0] - np.float32(DRAG_DIVERGENCE)
+    return np.minimum(beyond, drawn.flow(grid).attached)
 
 
 def filled(disk: DiskFields, values: Array) -> Array:
@@ -452,15 +479,3 @@ def mark_line(
                 # With no reach, the line is as wide as the points are apart.
                 if reach == 0 or abs(values[i, j]) < half_width * math.hypot(along, around):
                     codes[i, j] = code
-
-
-def region_masks(drawn: DrawnSolution, grid: PolarGrid) -> dict[str, Booleans]:
-    """Where each region lies on the polar grid, shape (radii, azimuths), by name; none of them in reverse flow but
-    that itself.
-    """
-    flow = drawn.flow(grid)
-    return {
-        "stall": (flow.attached < 0.0) & (flow.u_t > 0.0),
-        "reverse_flow": flow.u_t < 0.0,
-        "drag_divergence": (divergence_margin(drawn, grid) > 0.0) & (flow.u_t > CLEAR_OF_REVERSE),
-    }

@@ -227,7 +227,7 @@ TRIM_ROWS: dict[str, _TrimRow] = {
         " %",
         lambda s: 100.0 * s.reverse_flow_area,
     ),
-    "stalled_area": ("Stalled area", "stall [%]", 1, " %", lambda s: 100.0 * s.stalled_area),
+    "stalled_area": ("Separated area", "separated [%]", 1, " %", lambda s: 100.0 * s.stalled_area),
     "elastic_tip": (
         "Elastic tip",
         "φ tip [°]",

@@ -1,7 +1,8 @@
 """One sentence that says why power changed between two solutions: what moved, which part of power, where on the disk.
 
 The cause is read from what differs: the lift over the disk where the twist changed, else the flight condition, the
-model or the rotor. Then come the parts of power that changed most, and stall or drag divergence that came or went.
+model or the rotor. Then come the parts of power that changed most, and separated flow or drag divergence that came or
+went.
 """
 
 import math
@@ -14,6 +15,7 @@ from explorer.text.readout import part_change, part_titles
 from rotor import Design, Solution
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.switches import SWITCHES, no_effect
+from rotor.airfoil.section_table import DRAG_DIVERGENCE
 from rotor.design.quantities import OPTIONS, QUANTITIES, UNUSUAL
 from rotor.support.arrays import Array, Booleans
 from rotor.trim.doubt import Doubt
@@ -22,8 +24,6 @@ _SMALL_PART = 0.08
 """A part that changed less than this share of the largest change is left out."""
 _LEAST_SHIFT = 3e-4
 """Smallest movement of the lift that is mentioned, as a fraction of R; 0.1° of linear twist in hover gives 5e-4."""
-_DIVERGENCE = 0.1
-"""∂C_d/∂M at drag divergence."""
 
 
 def lift_centroid(solution: Solution) -> tuple[float, float] | None:
@@ -52,7 +52,7 @@ def why(before: Solution, after: Solution, units: Units = SI, band: Doubt | None
         return "Nothing has changed."
     cause = _cause(before, after)
     parts = _changed_parts(before, after, units, band)
-    regions = [text for text in (_stall(before, after), _divergence(before, after)) if text]
+    regions = [text for text in (_separation(before, after), _divergence(before, after)) if text]
     sentence = (
         f"{cause}: {', '.join(parts)}"
         if parts
@@ -196,18 +196,21 @@ def _reason(before: Solution, after: Solution) -> str:
     return f" ({reason})" if reason else ""
 
 
-def _stall(before: Solution, after: Solution) -> str:
+def _separation(before: Solution, after: Solution) -> str:
     a, b = before.disk.stalled, after.disk.stalled
     verb, amount = _area_change(100.0 * before.stalled_area, 100.0 * after.stalled_area, 0.5)
     fresh = _fresh(a, b)
     negative = fresh.any() and float((after.disk.alpha[fresh] < 0.0).mean()) > 0.5
-    kind = "negative stall" if negative and verb in ("appeared", "grew") else "stall"
+    kind = "separation"
+    if negative and verb in ("appeared", "grew"):
+        kind = "separation at negative angles"
     return _region(kind, verb, _place(after, a, b), amount)
 
 
 def _divergence(before: Solution, after: Solution) -> str:
     a, b = (_divergent(solution) for solution in (before, after))
-    verb, amount = _area_change(_percent_of_disk(before, a), _percent_of_disk(after, b), 1.0)
+    first, last = (100.0 * solution.regions.drag_divergence for solution in (before, after))
+    verb, amount = _area_change(first, last, 1.0)
     place = _place(after, a, b)
     # On the retreating side the Mach number is low: there it is the lift that makes drag rise.
     kind = "drag rise at high lift" if place.endswith("retreating side") else "drag divergence"
@@ -237,19 +240,15 @@ def _area_change(a: float, b: float, least: float) -> tuple[str, str]:
 
 
 def _divergent(solution: Solution) -> Booleans:
-    """Beyond drag divergence, stalled elements left out: their drag has another cause."""
+    """Beyond drag divergence, separated elements left out: their drag has another cause."""
     disk = solution.disk
-    return (disk.cd_mach > _DIVERGENCE) & (disk.u_t >= 0.0) & ~disk.stalled
+    return (disk.cd_mach > DRAG_DIVERGENCE) & (disk.u_t >= 0.0) & ~disk.stalled
 
 
 def _ring(solution: Solution) -> Array:
     """Area of each element at each azimuth as a part of πR², (elements, azimuths)."""
     disk = solution.disk
     return np.broadcast_to(disk.cells[:, None], disk.dct.shape)
-
-
-def _percent_of_disk(solution: Solution, mask: Booleans) -> float:
-    return 100.0 * float(_ring(solution)[mask].sum())
 
 
 def _fresh(before: Booleans, after: Booleans) -> Booleans:

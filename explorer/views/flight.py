@@ -112,7 +112,7 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
             if there.controls_left is None
             else f", {number(100.0 * there.controls_left)} % control left"
         )
-        stalled = f"disk {number(100.0 * there.stalled_area, 1)} % stalled"
+        stalled = f"{number(100.0 * there.stalled_area, 1)} % of the disk separated"
         words = f"{STATES[state]}: {now.units.watts(there.power)}, {stalled}{left}"
     return FlightPart(
         legs=tuple(

@@ -17,8 +17,8 @@ from rotor.trim.doubt import Doubt, decimals
 _TELLING = 0.1
 """In descent and autorotation total power is near zero: below this part of its positive parts it has no percentage."""
 _STALLED = 0.01
-"""Part of the thrust, or a fifth of that of the disk, from which stall is named beside the power: near the root much of
-the disk may be stalled without weight.
+"""Part of the thrust, or a fifth of that of the disk, from which separated flow is named beside the power: near the
+root much of the disk may be separated without weight.
 """
 
 
@@ -65,7 +65,7 @@ def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart
 
 
 def status(state: SessionState, units: Units) -> LineStatus:
-    """The end of the line: trimmed, or engines, stalled area, number of caveats; the title: how well validated."""
+    """The end of the line: trimmed, or engines, separated area, number of caveats; the title: how well validated."""
     reasons = cautions(state.solution, state.pinned)
     stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
     record = validated(state.solution)
@@ -83,7 +83,7 @@ def status(state: SessionState, units: Units) -> LineStatus:
         words = f"engines give only {units.watts(installed)}"
     elif max(state.solution.stalled_thrust, 0.2 * stalled) >= _STALLED:
         thrust = number(100.0 * state.solution.stalled_thrust, 1)
-        words = f"{number(100.0 * stalled, 1)} % of disk, {thrust} % of thrust stalled"
+        words = f"{number(100.0 * stalled, 1)} % of disk, {thrust} % of thrust separated"
     elif reasons:
         words = "1 note" if len(reasons) == 1 else f"{len(reasons)} notes"
     else:

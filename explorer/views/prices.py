@@ -1,4 +1,4 @@
-"""What stall and reverse flow cost, beside their regions on the disk, and how far away the edge of stall is."""
+"""What separated and reverse flow cost, beside their regions on the disk, and where the flow begins to separate."""
 
 from collections.abc import Generator
 from dataclasses import replace
@@ -9,7 +9,7 @@ from explorer.parts.stage import RegionPrice
 from explorer.views.page_state import Effect, MoveSliders, PageState, Panel, PanelWork, Tell
 from explorer.views.waterfall import cost_words, switched_alone
 from rotor.study.series import WaterfallStep
-from rotor.trim.stall_edge import stall_edges
+from rotor.trim.stall_edge import AttachedRange, StallEdges, stall_edges
 
 
 def stall_edge_work(now: PageState) -> tuple[PanelWork, ...]:
@@ -18,9 +18,8 @@ def stall_edge_work(now: PageState) -> tuple[PanelWork, ...]:
         return ()
     solution = now.state.solution
 
-    def run(tell: Tell) -> Generator[None, None, tuple[bool, float, dict[str, float | None]]]:
-        found = yield from stall_edges(solution)
-        return solution.stalled_area > 0.0, solution.design.condition.advance_ratio, found
+    def run(tell: Tell) -> Generator[None, None, StallEdges]:
+        return (yield from stall_edges(solution))
 
     return (PanelWork("stall-edges", (solution.design,), run),)
 
@@ -29,7 +28,8 @@ def prices(now: PageState) -> dict[str, Any]:
     """By region. The last ones known stand there as stale until those of the present design are."""
     if now.state is None:
         return {"prices": None}
-    models = now.state.solution.design.models
+    solution = now.state.solution
+    models = solution.design.models
     steps, current = switched_alone(now)
     waits = ("Computing …",) if not steps and not current else ()
     on = {"stall": models.stall, "reverse_flow": True}
@@ -41,10 +41,11 @@ def prices(now: PageState) -> dict[str, Any]:
         for name in on
     }
     stall, asked = shown["stall"], stall_edge_work(now)
+    if models.stall and not solution.stalled_area:
+        stall = RegionPrice(())  # What is not there has no price.
     if asked:
-        known, of_now = now.latest(asked[0])
-        stalls, mu, edges = known or (False, 0.0, {})
-        lines = _edges(stalls, mu, edges, now.units)
+        edges, of_now = now.latest(asked[0])
+        lines = () if edges is None else _edges(edges, now.units)
         stall = replace(stall, lines=(*stall.lines, *lines), stale=stall.stale or not of_now)
     return {
         "prices": shown
@@ -60,20 +61,36 @@ def _cost(step: WaterfallStep, units: Units, on: bool) -> str:
     return f"{f'{does.capitalize()}s' if on else f'Would {does}'} {units.watts(abs(step.added), 1)}"
 
 
-def _edges(stalls: bool, mu: float, edges: dict[str, float | None], units: Units) -> list[str]:
-    """Where stall begins, or ends, by each quantity alone; mu: advance ratio here."""
-    by_mu, by_mass, by_twist = (edges.get(name) for name in ("mu", "mass_kg", "twist"))
-    ways = [] if by_mu is None else [f"at µ {number(mu + by_mu, 3)}"]
-    if by_mass is not None:
-        mass = units.mass.text(abs(by_mass), 2 if units.mass is TONNE else 0)
-        ways.append(f"with {mass} {'less' if by_mass < 0.0 else 'more'}")
-    if by_twist is not None:
-        ways.append(f"with twist {number(by_twist, 1, sign=True)}°/R")
-    return [f"{'or' if k else 'Ends' if stalls else 'Begins'} {way}" for k, way in enumerate(ways)]
+def _edges(edges: StallEdges, units: Units) -> list[str]:
+    """Where separated flow begins, or ends, by each quantity alone."""
+    ways = list[str]()
+    if edges.mass_kg is not None:
+        mass = units.mass.text(abs(edges.mass_kg), 2 if units.mass is TONNE else 0)
+        ways.append(f"with {mass} {'less' if edges.mass_kg < 0.0 else 'more'}")
+    if edges.twist_deg is not None:
+        ways.append(f"with twist {number(edges.twist_deg, 1, sign=True)}°/R")
+    verb = "Ends" if edges.separated else "Begins"
+    lines = _speeds(edges.mu, verb)
+    for way in ways:
+        lines.append(f"{'or' if lines else verb} {way}")
+    return lines
+
+
+def _speeds(attached: AttachedRange, verb: str) -> list[str]:
+    """Between which advance ratios no flow is separated."""
+    low, high = (end if end is None else number(end, 3) for end in (attached.low, attached.high))
+    if low is not None and high is not None:
+        return [f"None between µ {low} and {high}"]
+    beyond, before = ("above", "below") if verb == "Ends" else ("below", "above")
+    if low is not None:
+        return [f"{verb} {beyond} µ {low}"]
+    if high is not None:
+        return [f"{verb} {before} µ {high}"]
+    return []
 
 
 def switch_stall(now: PageState, value: object) -> tuple[Effect, ...]:
-    """The disk without stall, or with it again: a trim of its own."""
+    """The disk with attached flow throughout, or as it is: a trim of its own."""
     del value
     return (MoveSliders(replace(now.inputs, stall=not now.inputs.stall), by_hand=False),)
 

@@ -33,11 +33,11 @@
   }
 
   const HEAD = `
-    uniform sampler2D rxNumbers, rxMap;
+    uniform sampler2D rxNumbers, rxPast, rxMap;
     uniform vec4 rxGrid;
     uniform vec3 rxMarked[5];
     uniform vec2 rxOpacity;
-    uniform bool rxVoid, rxAbsent, rxReverse;
+    uniform bool rxVoid, rxAbsent, rxReverse, rxDotted;
     uniform float rxClear;
     varying vec2 rxAt;
     const float TURN = 6.283185307;
@@ -46,6 +46,7 @@
       return vec2(psi / TURN * rxGrid.y, clamp((r - rxGrid.z) / (1. - rxGrid.z), 0., 1.) * (rxGrid.x - 1.));
     }
     vec4 rxRead(float r, float psi) { return texture2D(rxNumbers, (rxPlace(r, psi) + .5) / rxGrid.yx) * 255.; }
+    float rxReadPast(float r, float psi) { return texture2D(rxPast, (rxPlace(r, psi) + .5) / rxGrid.yx).r * 255. - 128.; }
     // Of the four numbers about a place those that exist, and how much of the place they fill.
     vec2 rxPresent(float r, float psi) {
       vec2 place = rxPlace(r, psi), corner = floor(place), share = place - corner, sum = vec2(0.);
@@ -83,6 +84,17 @@
     hatched *= clear * clamp(.5 - away.g / pixel, 0., 1.) * present;
     colour = mix(colour, .2 * colour + .8 * rxMarked[0], hatched);
     opacity = mix(opacity, .98, hatched);
+    if (rxDotted) {
+      float past = rxReadPast(r, psi), pastOuter = rxReadPast(r + h, psi), pastInner = rxReadPast(r - h, psi);
+      float pastAfter = rxReadPast(r, psi + h / r), pastBefore = rxReadPast(r, psi - h / r);
+      float pastSlope = length(vec2(pastOuter - pastInner, pastAfter - pastBefore)) / (2. * h);
+      float pastLow = min(min(pastOuter, pastInner), min(pastAfter, pastBefore));
+      float pastHigh = max(max(pastOuter, pastInner), max(pastAfter, pastBefore));
+      float dotted = 1. - smoothstep(width.g - .5 * pixel, width.g + .5 * pixel, abs(past) / max(pastSlope, 1e-3));
+      dotted *= step(pastLow, -.001) * step(.001, pastHigh) * clear * step(fract(160. * (psi + r) / TURN), .45);
+      colour = mix(colour, rxMarked[0], dotted);
+      opacity = max(opacity, dotted);
+    }
     line.g *= clear;
     line.b *= clear * step(fract((psi * 96. + 48. * 2. * r) / TURN), .58) * step(r, .995);
     colour = mix(mix(colour, rxMarked[0], line.g), rxMarked[3], line.b);
@@ -106,20 +118,23 @@
   function colour({material}, disk) {
     // The picture that the node has by itself gives the class of textures.
     if (!material?.map || !disk.numbers || !disk.ink) return;
-    const {uniforms, numbers: {grid, clear, absent, reverse, texts, void: rxVoid}, ink} = disk, [rows, columns] = grid;
+    const {uniforms, numbers: {grid, clear, absent, reverse, texts, past, void: rxVoid}, ink} = disk, [rows, columns] = grid;
     if (disk.changed) {
       disk.changed = false;
       uniforms.rxNumbers ??= {value: texture(material.map, columns, rows)};
+      uniforms.rxPast ??= {value: texture(material.map, columns, rows)};
       uniforms.rxMap ??= {value: texture(material.map, 256, 1)};
-      const {rxNumbers: {value: numbers}, rxMap: {value: map}} = uniforms;
+      const {rxNumbers: {value: numbers}, rxPast: {value: dotted}, rxMap: {value: map}} = uniforms;
       texts.forEach((text, channel) => unpack(text, numbers.image.data, channel));
+      unpack(past, dotted.image.data, 0);
       ink.map.match(/../g).forEach((digits, n) => {
         map.image.data[4 * Math.floor(n / 3) + n % 3] = parseInt(digits, 16);
       });
-      numbers.needsUpdate = map.needsUpdate = true;
+      numbers.needsUpdate = dotted.needsUpdate = map.needsUpdate = true;
       const values = {
         rxGrid: new Float32Array(grid), rxMarked: new Float32Array(ink.marked.flat()),
         rxOpacity: new Float32Array(ink.opacity), rxVoid, rxAbsent: absent, rxReverse: reverse, rxClear: clear,
+        rxDotted: past !== null,
       };
       for (const [name, value] of Object.entries(values)) (uniforms[name] ??= {value}).value = value;
     }

@@ -9,9 +9,9 @@
   const CARDS = 288, STACKED = 350;  // [px] Cards beside the circle, and above and below it.
   const MOVING = 320;  // [px] Along the edge of the field while something moves.
   const COLOURS = {
-    stall: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)',
+    stall: 'var(--rx-stall)', past_static: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)',
   };
-  const DASHES = {drag_divergence: '3 4'};
+  const DASHES = {past_static: '1.5 3.5', drag_divergence: '3 4'};
   /** @type {[string, string, number, string][]} */
   const ROWS = [
     ['alpha', 'α', 1, '°'], ['mach', 'Mach', 3, ''], ['cl', 'C_l', 3, ''], ['margin', 'Stall margin', 1, '°'],
@@ -53,7 +53,8 @@
     const alpha = 180 - turned(180 - value('theta', out) - value('ahead', held) + phi);
     const upper = value('upper', held), lower = value('lower', held);
     const margin = upper < 90 ? Math.min(upper - alpha, alpha - lower) : Infinity;  // Sections may not stall at all.
-    return {alpha, upper, lower, margin,
+    const attached = from.attached ? value('attached', held) : margin;
+    return {alpha, upper, lower, margin, separated: attached < 0,
       mach: Math.max(value('mach', out), 0), cl: value('cl', held)};
   }
   const reversed = ({r, psi}) => RX.shown('plan').mu * Math.sin(psi * DEGREE) + r < 0;
@@ -223,7 +224,7 @@
     wiped.style.cssText = `position: absolute; inset: 0; width: 100%; height: 100%;
       clip-path: inset(0 calc(${x + radius}px - 100cqw * var(--rx-wipe, .5)) 0 0)`;
     const regions = plan.regions.filter(({lines}) => lines.length);
-    const stall = {name: 'stall', title: 'Stall', words: 'none'};
+    const stall = {name: 'stall', title: 'Separated', words: 'none'};
     const none = !plan.held && RX.state.prices && !regions.some(({name}) => name === 'stall');
     const labels = placeLabels(none ? [...regions, {...stall, lines: [], before: []}] : regions);
     const before = plan.regions.flatMap(region => region.before).map(line =>
@@ -264,10 +265,15 @@
     const own = READ.includes(field) ? '' : `<dt>${text(field)}</dt><dd>${number} ${text(unit)}</dd>`;
     if (reversed(spot)) return `<dt>Mach</dt><dd>${fixed(value.mach, 3)}</dd>${own}<dt>Reverse flow</dt><dd></dd>`;
     return ROWS.filter(([name]) => Number.isFinite(value[name])).map(([name, title, decimals, of]) => {
-      const bad = name === 'margin' && value.margin < 0 ? 'rxf-bad' : '';
+      const bad = name === 'margin' && value.separated ? 'rxf-bad' : '';
       const words = title.replace('_l', '<sub>l</sub>');
       return `<dt>${words}</dt><dd class="${bad}">${fixed(value[name], decimals)}${of}</dd>`;
-    }).join('') + own;
+    }).join('') + flowOf(value) + own;
+  }
+  // Past the static angle the flow may still be attached.
+  function flowOf({margin, separated}) {
+    if (separated) return '<dt>Flow</dt><dd class="rxf-bad">separated</dd>';
+    return margin < 0 ? '<dt>Flow</dt><dd>attached</dd>' : '';
   }
   const card = spot => `<div class="rxf-head">
       <b class="rxf-num">${spot.r.toFixed(2)} R · ψ ${Math.round(spot.psi)}°</b></div>
@@ -298,7 +304,7 @@
     reading.innerHTML = card(pointer);
     placeReading(reading, pointer);
   }
-  // α around the circle, with the stall angles there.
+  // α around the circle, with the static stall angles there, shaded between where α is past them.
   function drawAround() {
     if (!values || !layout.chart) return;
     const x = Array.from({length: 121}, (_, k) => 3 * k), {around: chart} = RX.shown('plan');
@@ -309,7 +315,7 @@
     const [alpha, upper, lower] = ['alpha', 'upper', 'lower'].map(name => inside(of(own, name)));
     const line = (y, colour, width, dashes) => ({kind: 'line', x, y, colour: `var(--rx-${colour})`, width, dashes});
     /** @type {any[]} */
-    const series = [line(upper, 'stall', 1.3, '3 3'), line(lower, 'stall', 1.3, '3 3')];
+    const series = [...bandsPast(x, own, inside), line(upper, 'stall', 1.3, '3 3'), line(lower, 'stall', 1.3, '3 3')];
     if (values.before) series.push(line(inside(of(turn(values.before), 'alpha')), 'pinned', 1.7, '6 3'));
     series.push(line(alpha, 'blade', 2.1));
     const here = pointer && !reversed({r: circle, psi: pointer.psi}) ? [pointer.psi] : [];
@@ -317,14 +323,38 @@
       const y = inside([read({r: circle, psi}, values.own).alpha]);
       series.push({kind: 'points', x: here, y, colour: 'var(--rx-blade)'});
     }
-    const margin = Math.min(...own.map(there => there ? there.margin : Infinity));
     const narrow = layout.chart.width < 480;  // Else the words of its heading are cut.
     const label = `° at ${circle.toFixed(2)} R${narrow ? '' : ', the white circle'}`;
     Charts.fill(around.firstElementChild, {
       ...chart, title: narrow ? 'Angle of attack' : chart.title, y: {...chart.y, label}, series,
-      value: Number.isFinite(margin) ? `least margin ${fixed(margin, 1)}°` : own.some(Boolean) ? '' : 'reverse flow',
-      kind: margin < 0 ? 'bad' : '', rules: here.map(psi => ({at: psi, along: 'x', colour: 'var(--rx-faint)'})),
+      ...stallOf(own), rules: here.map(psi => ({at: psi, along: 'x', colour: 'var(--rx-faint)'})),
     }, layout.chart);
+  }
+
+  // The areas between α and the static stall angle, one for each stretch of the turn.
+  function bandsPast(x, own, inside) {
+    const bands = [];
+    let before = null;
+    own.forEach((there, k) => {
+      const kind = !there ? null : there.separated ? 'stall' : there.margin < 0 ? 'dim' : null;
+      if (!kind) { before = null; return; }
+      if (kind !== before) bands.push({kind: 'band', x: [], low: [], high: [], colour: `var(--rx-${kind})`});
+      before = kind;
+      const {alpha, upper, lower} = there, band = bands.at(-1);
+      const [one, other] = inside([alpha, alpha > (upper + lower) / 2 ? upper : lower]);
+      band.x.push(x[k]);
+      band.low.push(one);
+      band.high.push(other);
+    });
+    return bands;
+  }
+  // What the heading of that chart says of stall.
+  function stallOf(own) {
+    const known = own.filter(Boolean), margin = Math.min(...known.map(there => there.margin));
+    if (!known.length) return {value: 'reverse flow', kind: ''};
+    if (known.some(there => there.separated)) return {value: 'separated', kind: 'bad'};
+    if (margin < 0) return {value: `${fixed(-margin, 1)}° past the static angle, attached`, kind: ''};
+    return {value: Number.isFinite(margin) ? `${fixed(margin, 1)}° to static stall` : '', kind: ''};
   }
 
   RX.paint('line', line => place.toggleAttribute('data-faded', Boolean(line.problem)));

@@ -88,14 +88,19 @@
         fixed(mach[nearer], 2)}</tspan></text>
       ${Math.abs(alpha) > chart.x.range[1] ? '' : dot}`;
   }
+  // margin: to the static stall angle [°] in words, null where there is none.
+  function flowOf(region, margin) {
+    if (region === 'separated') return ' · separated';
+    if (region.startsWith('past')) return ` · ${margin.replace('−', '')}° ${region}`;
+    return margin ? ` · ${margin}° to static stall` : '';
+  }
   function draw(psi) {
     const values = valuesAt(psi), {nearer, u, alpha} = values;
-    const region = section.region[nearer], bad = region === 'stalled';
+    const region = section.region[nearer], bad = region === 'separated';
     const width = place.clientWidth - 32, wide = width > 560, half = wide ? .48 * width : width;
     const frame = Charts.frame(section.chart, wide ? width - half - 12 : width, HEIGHT, {bottom: 18});
-    const margin = section.margin[nearer], left = margin ? ` · ${margin}° to stall` : '';
     const words = u < 0 ? `${region}: the air comes from the trailing edge`
-      : `α ${fixed(alpha, 1)}°${bad ? ' · stalled' : left}`;
+      : `α ${fixed(alpha, 1)}°${flowOf(region, section.margin[nearer])}`;
     const filled = Math.min(100 * (section.filled[nearer] ?? 0), 100);
     const svg = (size, label, content) => `<svg viewBox="0 0 ${size} ${HEIGHT}" style="width:${size}px" role="img"
       aria-label="${label}">${content}</svg>`;
@@ -103,7 +108,7 @@
         <span class="rxf-dim">${text(section.where[nearer])} · ${text(section.section)}</span>
         <span class="rxf-num ${bad ? 'rxf-bad' : ''}" data-value>${text(words)}</span>
         <button data-page-ride aria-label="Leave the blade" title="Leave the blade (Esc)">×</button></div>
-      <div class="rxf-filled ${bad ? 'rxf-bad' : ''}" role="img" aria-label="Angle of attack over the stall angle:
+      <div class="rxf-filled ${bad ? 'rxf-bad' : ''}" role="img" aria-label="Angle of attack over the static stall angle:
         ${Math.round(filled)} %"><i style="width:${filled.toFixed(1)}%"></i></div>
       ${svg(half, 'The section with the air it meets and its lift', drawSection(values, half))}${svg(frame.width,
         'Lift coefficient over the angle of attack, with the point of this section', drawLift(values, frame))}`;

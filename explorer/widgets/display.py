@@ -13,11 +13,11 @@ from explorer.model.session_state import SessionState
 from explorer.model.units import number
 from explorer.parts.stage import FieldPart, TurnPart
 from explorer.picture.fields import FIELDS, Field, fields_of
-from explorer.picture.plan import OUTLINES
+from explorer.picture.plan import REGIONS as OUTLINED
 from rotor import Solution
 from rotor.support.chart import bar_ticks
 
-REGIONS = ("stall", "reverse_flow", "wake", "drag_divergence")
+SWITCHES = ("stall", "past_static", "reverse_flow", "wake", "drag_divergence")
 """Fields of `ViewState` that a press switches."""
 _COLOURS = 17
 
@@ -81,7 +81,8 @@ class Display:
         self._show_field()
 
     def show(self, state: SessionState) -> None:
-        """How much of the disk is stalled, which regions it has none of, and the quantities that its models have."""
+        """How much of the disk is separated or past the static angle, which regions it has none of, and the quantities
+        that its models have."""
         self._fields, self._shares = fields_of(state.solution), _shares(state.solution, state.view)
         self._show_field()
 
@@ -104,7 +105,7 @@ class Display:
         self._changed()
 
     def _switch_region(self, name: str) -> None:
-        if name in REGIONS or (name == "wipe" and self._allowed):
+        if name in SWITCHES or (name == "wipe" and self._allowed):
             self._change(**{name: not getattr(self.view, name)})
 
     def _show_turn(self) -> None:
@@ -123,7 +124,7 @@ class Display:
                 ticks=bar_ticks(*range_),
                 faded=self._faded,
                 fitted=self.fitted,
-                regions={name: getattr(view, name) for name in REGIONS},
+                regions={name: getattr(view, name) for name in SWITCHES},
                 shares=self._shares,
                 difference=view.difference if self._allowed else None,
                 wipe=view.wipe,
@@ -133,12 +134,21 @@ class Display:
 
 
 def _shares(solution: Solution, view: ViewState) -> dict[str, str]:
-    stall = {"stall": f"{number(100.0 * area, 1)} %"} if (area := solution.stalled_area) else {}
-    shown = {name: lines for name, (_, lines) in OUTLINES.items() if getattr(view, name)}
-    none = {"stall": "none" if solution.design.models.stall else "not modelled"}
-    return {
-        name: none.get(name, "none") for name, lines in shown.items() if not len(lines(solution))
-    } | stall
+    """Part of the disk that is separated, or past the static angle; of regions that are shown also that there is
+    none."""
+    shares = dict[str, str]()
+    for name, region in OUTLINED.items():
+        stall = name in ("stall", "past_static")
+        area, _ = region.share(solution.regions)
+        if stall and area:
+            shares[name] = f"{number(100.0 * area, 1)} %"
+        elif not getattr(view, name) or len(region.outline(solution)):
+            continue
+        elif stall and not solution.design.models.stall:
+            shares[name] = "not modelled"
+        else:
+            shares[name] = "none"
+    return shares
 
 
 @cache

@@ -6,7 +6,7 @@ interpolated, and reverse flow, stall and drag rise begin where they would if th
 """
 
 import math
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -24,10 +24,11 @@ from rotor.aero.elements import (
 from rotor.aero.inflow.interface import PLAIN
 from rotor.aero.problem import Problem, on_azimuths
 from rotor.aero.section import M, angles_of_attack, stall_angles, stall_margins
+from rotor.airfoil.section_table import DRAG_DIVERGENCE
 from rotor.airfoil.stall_onset import STALLED
 from rotor.design.design import SHOWN_AZIMUTHS
 from rotor.engine.waves import wave_grid
-from rotor.support.arrays import Array, read_only
+from rotor.support.arrays import Array, Booleans, read_only
 from rotor.support.bytes_cache import bytes_cache
 
 ENOUGH_ELEMENTS = 40
@@ -111,53 +112,128 @@ def pitch_of_alpha(flow: Any) -> Array:
     return flow.theta + np.remainder(ahead + math.pi, 2.0 * math.pi) - math.pi
 
 
-def areas(
-    disk: Disk, elements: BladeElements, stall_margin: Array
-) -> tuple[float, float, float, float, float]:
-    """Reverse-flow area and stalled area over πR², the latter outside reverse flow, and the stalled parts of the thrust
-    and of its moment about the hub, Σ r dT; last the least margin to stall, negative where there is a stalled area.
+@dataclass(frozen=True)
+class Regions:
+    """Regions of the disk: areas over πR², and the parts of the thrust and of its moment about the hub in them."""
 
-    Steady sections are stalled beyond the stall angle, unsteady ones where f″ is below `STALLED`.
-    stall_margin: of the elements [rad], (elements, azimuths). With few elements the velocities, the pitch and the stall
-    angles, which are smooth, are taken linear along the blade, and the angle of attack follows from them.
+    reverse_flow: float
+    """Area with U_T < 0."""
+    separated: float
+    """Area where the flow is separated, outside reverse flow."""
+    past_static: float
+    """Area past the static stall angle with the flow still attached, outside reverse flow; 0 for steady sections."""
+    drag_divergence: float
+    """Area beyond drag divergence, outside reverse flow and where the flow is attached."""
+    reverse_flow_thrust: float
+    separated_thrust: float
+    past_static_thrust: float
+    drag_divergence_thrust: float
+    """Parts of the thrust that the elements in each region carry; negative where they push down."""
+    separated_moment: float
+    """Part of the moment of the lift about the hub, Σ r dT, from separated elements."""
+    least_margin: float
+    """Least distance to separation outside reverse flow, negative where some flow is separated: of the angle of attack
+    [rad], or in unsteady flow of the separation point [chords]."""
+
+
+@dataclass(frozen=True)
+class _Elements:
+    """What decides the region of an element: of the trim, or on finer radii, (elements, azimuths) each."""
+
+    r: Array
+    """y/R, (elements,)."""
+    cells: Array
+    """Part of πR² of one element at one azimuth, (elements,)."""
+    u_t: Array
+    lift: Array
+    """Thrust of an element, to a common factor."""
+    margin: Array
+    """Of the angle of attack to the static stall angle [rad], negative beyond it."""
+    attached: Array
+    """Negative where the flow is separated, see `Regions.least_margin`."""
+    cd_mach: Array
+
+
+def regions(disk: Disk, elements: BladeElements, stall_margin: Array) -> Regions:
+    """The regions of a disk from its blade elements.
+
+    The flow of a steady section is separated beyond the stall angle, that of an unsteady one where f″ is below
+    `STALLED`. stall_margin: of the elements [rad], (elements, azimuths).
     """
+    e = _as_solved if len(disk.r) >= ENOUGH_ELEMENTS else _on_finer_radii
+    return _counted(e(disk, elements, stall_margin))
+
+
+def _as_solved(disk: Disk, elements: BladeElements, stall_margin: Array) -> _Elements:
     unsteady = elements.unsteady
-    if len(disk.r) >= ENOUGH_ELEMENTS:
-        reverse = elements.u_t < 0.0
-        left = stall_margin if unsteady is None else unsteady.separation - STALLED
-        cells, lift, r = disk.cells, disk.dr[:, None] * elements.fz, disk.r
-    else:
-        matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
-        u_t, lift = matrix @ np.stack((elements.u_t, elements.fz))
-        reverse, cells, r = u_t < 0.0, cells / len(disk.psi), matrix @ disk.r
-        if unsteady is None:
-            limits = stall_angles(elements.mach, disk.weight, disk.offset, disk.stall)
-            pitch = elements.theta if elements.rates is None else pitch_of_alpha(elements)
-            theta, u_p, low, high = matrix @ np.stack((pitch, elements.u_p, *limits))
-            alpha = np.empty_like(theta)
-            angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
-            left = np.minimum(high - alpha, alpha - low)
-        else:
-            left = matrix @ unsteady.separation - STALLED
-    stalled = (left < 0.0) & ~reverse
-    moment = r[:, None] * lift
-    of_lift, of_moment = (
-        float(own[stalled].sum() / own.sum()) if own.any() else 0.0 for own in (lift, moment)
+    return _Elements(
+        r=disk.r,
+        cells=disk.cells,
+        u_t=elements.u_t,
+        lift=disk.dr[:, None] * elements.fz,
+        margin=stall_margin,
+        attached=stall_margin if unsteady is None else unsteady.separation - STALLED,
+        cd_mach=elements.cd_mach,
     )
-    reversed_area, area = (
-        float(cells @ np.count_nonzero(part, axis=1)) for part in (reverse, stalled)
+
+
+def _on_finer_radii(disk: Disk, elements: BladeElements, stall_margin: Array) -> _Elements:
+    """Elements at even radii: what is smooth is linear along the blade, and the angle of attack follows from it."""
+    del stall_margin  # It jumps beside reverse flow.
+    matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
+    pitch = elements.theta if elements.rates is None else pitch_of_alpha(elements)
+    limits = stall_angles(elements.mach, disk.weight, disk.offset, disk.stall)
+    smooth = elements.u_t, elements.u_p, elements.fz, pitch, *limits, elements.cd_mach
+    u_t, u_p, lift, theta, low, high, cd_mach = matrix @ np.stack(smooth)
+    alpha = np.empty_like(theta)
+    angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
+    margin = np.minimum(high - alpha, alpha - low)
+    unsteady = elements.unsteady
+    return _Elements(
+        r=matrix @ disk.r,
+        cells=cells / elements.u_t.shape[1],
+        u_t=u_t,
+        lift=lift,
+        margin=margin,
+        attached=margin if unsteady is None else matrix @ unsteady.separation - STALLED,
+        cd_mach=cd_mach,
     )
-    return (
-        reversed_area,
-        area,
-        of_lift,
-        of_moment,
-        float(left.min(initial=math.inf, where=~reverse)),
+
+
+def _counted(e: _Elements) -> Regions:
+    reverse = e.u_t < 0.0
+    separated = (e.attached < 0.0) & ~reverse
+    flows = ~separated & ~reverse
+    past_static = (e.margin < 0.0) & flows
+    divergence = (e.cd_mach > DRAG_DIVERGENCE) & flows
+
+    def area(region: Booleans) -> float:
+        return float(e.cells @ np.count_nonzero(region, axis=1))
+
+    moment = e.r[:, None] * e.lift
+    return Regions(
+        reverse_flow=area(reverse),
+        separated=area(separated),
+        past_static=area(past_static),
+        drag_divergence=area(divergence),
+        reverse_flow_thrust=_part(e.lift, reverse),
+        separated_thrust=_part(e.lift, separated),
+        past_static_thrust=_part(e.lift, past_static),
+        drag_divergence_thrust=_part(e.lift, divergence),
+        separated_moment=_part(moment, separated),
+        least_margin=float(e.attached.min(initial=math.inf, where=~reverse)),
     )
+
+
+def _part(load: Array, region: Booleans) -> float:
+    """The part of a load that comes from a region; 0 where there is no load."""
+    if not load.any():
+        return 0.0
+    return float(load[region].sum() / load.sum())
 
 
 def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
-    """Stalled fractions of πR² and of the lift's moment about the hub on the azimuths that are shown."""
+    """Separated fractions of πR² and of the lift's moment about the hub on the azimuths that are shown."""
     return own_stalled_parts(*at_display_azimuths(problem, elements))
 
 
@@ -165,8 +241,8 @@ def own_stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float,
     """`stalled_parts` on the azimuths of the trim."""
     disk, e = problem.disk, elements
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.weight, disk.offset, disk.stall)
-    _, area, _, moment, _ = areas(disk, e, margin)
-    return area, moment
+    found = regions(disk, e, margin)
+    return found.separated, found.separated_moment
 
 
 @bytes_cache

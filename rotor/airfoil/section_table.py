@@ -25,6 +25,8 @@ ALPHA_STEP = np.pi / 360.0  # rad, half a degree
 MACH_STEP = 0.05
 
 SLOPE_FRACTION = 0.25
+DRAG_DIVERGENCE = 0.1
+"""∂C_d/∂M that marks drag divergence."""
 _LEAST_SLOPE = 0.5
 """[1/rad] of lift about zero lift. A flat plate has 6.3, and transonic data have 2 or more."""
 _ZERO_LIFT = np.deg2rad(6.0)
@@ -329,11 +331,11 @@ class SectionTable:
         return np.asarray((self(zero + span, m).cl - self(zero - span, m).cl) / (2.0 * span))
 
     def drag_divergence_mach(self, alpha: ArrayLike) -> Array:
-        """Lowest Mach with dcd/dM = 0.1 at `alpha` [rad]; `mach_limit` where that slope is not reached."""
+        """Lowest Mach at drag divergence at `alpha` [rad]; `mach_limit` where that slope is not reached."""
         a = np.asarray(alpha, dtype=np.float64)
         mach = np.arange(0.3, self.mach_limit + 1e-9, 0.002)
         slope = self(a[..., None], mach).cd_mach
-        over = slope >= 0.1
+        over = slope >= DRAG_DIVERGENCE
         first = np.argmax(over, axis=-1)
         return np.where(over.any(axis=-1), mach[first], self.mach_limit)
 

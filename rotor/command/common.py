@@ -220,7 +220,7 @@ def add_search_arguments(parser: argparse.ArgumentParser, starts: int) -> None:
     limits.add_argument("--bound", action="append", default=[], metavar="NAME=LOW,HIGH", help=words)
     words = "twist rate of every segment in degrees per radius, e.g. --rate-deg -20,0"
     limits.add_argument("--rate-deg", metavar="LOW,HIGH", help=words)
-    words = "largest stalled part of the disk area"
+    words = "largest part of the disk area past the static stall angle, separated or still attached"
     limits.add_argument("--stalled-percent", type=finite, metavar="PERCENT", help=words)
     words = "largest vibration index at any condition, relative to the weight; needs --bending, from µ 0.2 on"
     limits.add_argument("--index-percent", type=finite, metavar="PERCENT", help=words)

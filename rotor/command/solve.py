@@ -204,5 +204,6 @@ def _coefficients(solution: Solution) -> list[str]:
     return [
         *lines,
         f"of the disk: reverse flow {100 * solution.reverse_flow_area:.1f} %, "
-        f"stalled {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:z.1f} % of the thrust",
+        f"separated {100 * solution.stalled_area:.1f} % with {100 * solution.stalled_thrust:z.1f} % of the thrust, "
+        f"past the static stall angle but attached {100 * solution.past_static_area:.1f} %",
     ]

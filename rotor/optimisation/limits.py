@@ -64,7 +64,8 @@ class Limits:
     rate: tuple[float, float] | None = None
     """Steepest and flattest twist rate of every segment [rad/R]."""
     stalled: float | None = None
-    """Largest part of the disk beyond the stall angle, on every condition (0…1), as `stalled_share` has it."""
+    """Largest part of the disk past the static stall angle, separated or still attached, on every condition (0…1), as
+    `stalled_share` has it."""
     change: ChangeLimit | None = None
     index: float | None = None
     """Largest vibration index on every condition [%], see `rotor.trim.hub_loads`; of blades that bend."""
@@ -179,13 +180,13 @@ def cheap_margins(
 
 
 WIDTH = math.radians(0.5)
-"""Margin [rad] over which a cell changes from attached to stalled (logistic scale)."""
+"""Margin [rad] about the static stall angle over which a cell comes to count (logistic scale)."""
 REVERSE_WIDTH = 0.02
 """U_T over which cells fade out next to the reverse-flow region."""
 
 
 def stalled_share(adjoint: Adjoint) -> tuple[float, Array]:
-    """Part of πR² beyond the stall angle, without reverse flow, and its gradient by each element's pitch [1/rad]."""
+    """Part of πR² past the static stall angle, without reverse flow; its gradient by each element's pitch [1/rad]."""
     problem, elements = adjoint.problem, adjoint.elements
     disk = problem.disk
     ring = disk.cells[:, None]

@@ -358,7 +358,7 @@ def _minimum(evaluate: Evaluator, record: Evaluation, starts: Sequence[int]) -> 
         active.append("change")
     trimmed = tight[rates + changes :]
     if limits.stalled is not None and trimmed[:conditions].any():
-        active.append("stalled area")
+        active.append("area past the static angle")
     if limits.index is not None and trimmed[-conditions:].any():
         active.append("vibration index")
     measured, twist = record.blade.measured, evaluate.concept.twist(values).spec()

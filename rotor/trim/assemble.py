@@ -7,7 +7,7 @@ from functools import partial
 
 import numpy as np
 
-from rotor.aero.display import areas, at_display_azimuths, stalled_parts
+from rotor.aero.display import at_display_azimuths, regions, stalled_parts
 from rotor.aero.elements import BladeElements
 from rotor.aero.problem import Problem
 from rotor.aero.section import stall_margins
@@ -95,7 +95,7 @@ def shown_of(solution: Solution) -> Shown:
     problem, elements = _evaluated(solution)
     asked = at_display_azimuths(problem, elements)
     fields = _fields(*asked)
-    seen = areas(asked[0].disk, asked[1], fields.stall_margin)
+    seen = regions(asked[0].disk, asked[1], fields.stall_margin)
     shown = Shown(fields, seen, _elastic(problem, elements, asked))
     if not solution.converged:
         return shown

@@ -81,6 +81,10 @@ def solution_record(solution: Solution) -> dict[str, Any]:
             "thrust": 100.0 * solution.stalled_thrust,
             "moment": 100.0 * solution.stalled_moment,
         },
+        "past_static_percent": {
+            "area": 100.0 * solution.past_static_area,
+            "thrust": 100.0 * solution.regions.past_static_thrust,
+        },
         **(_elastic_record(solution.elastic) if solution.elastic else dict.fromkeys(_RIGID)),
     }
     return {

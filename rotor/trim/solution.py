@@ -13,7 +13,7 @@ import numpy as np
 
 from rotor.aero.bending import BladeFrequencies, blade_frequencies
 from rotor.aero.disk import OnDisk
-from rotor.aero.display import STALLED, pitch_of_alpha
+from rotor.aero.display import STALLED, Regions, pitch_of_alpha
 from rotor.aero.elements import TrimState, Unsteady
 from rotor.aero.lifting_line import WakeCourse
 from rotor.aero.momentum import axial_inflow
@@ -79,7 +79,7 @@ class DiskFields(OnDisk, ShortRepr):
     cd_mach: Array
     """∂C_d/∂M, whose value 0.1 marks drag divergence."""
     stall_margin: Array
-    """Stall angle less angle of attack [rad]: negative when stalled, π/2 in reverse flow."""
+    """Static stall angle less angle of attack [rad]: negative past it, π/2 in reverse flow."""
     dct: Array
     """dC_T/dr of the whole rotor as if smeared."""
     dcq: Array
@@ -106,12 +106,13 @@ class DiskFields(OnDisk, ShortRepr):
 
     @property
     def stalled(self) -> Booleans:
-        """Beyond the stall angle, or with dynamic stall where the flow is separated over 30 % of the chord; not in
-        reverse flow, (elements, azimuths)."""
-        beyond = (
-            self.stall_margin < 0.0 if self.unsteady is None else self.unsteady.separation < STALLED
-        )
-        return beyond & (self.u_t >= 0.0)
+        """Where the flow is separated: over 30 % of the chord, or in steady flow beyond the stall angle; not in reverse
+        flow, (elements, azimuths)."""
+        if self.unsteady is None:
+            separated = self.stall_margin < 0.0
+        else:
+            separated = self.unsteady.separation < STALLED
+        return separated & (self.u_t >= 0.0)
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -164,11 +165,10 @@ class Deflections:
 
 @dataclass(frozen=True, eq=False)
 class Shown:
-    """Fields, areas and caveats of a solution, on at least the azimuths that the models ask for."""
+    """Fields, regions and caveats of a solution, on at least the azimuths that the models ask for."""
 
     disk: DiskFields
-    areas: tuple[float, float, float, float, float]
-    """`reverse_flow_area` to `least_margin` of a `Solution`."""
+    regions: Regions
     elastic: ElasticTwist | None
     caveats: tuple[Caveat, ...] = ()
 
@@ -236,7 +236,7 @@ class Solution:
 
     @cached_property
     def shown(self) -> Shown:
-        """Fields, areas and caveats, worked out when first read: that takes a fifth of the time of a trim."""
+        """Fields, regions and caveats, worked out when first read: that takes a fifth of the time of a trim."""
         return self.find_shown(self)
 
     @property
@@ -245,31 +245,43 @@ class Solution:
         return self.shown.disk
 
     @property
+    def regions(self) -> Regions:
+        """Areas of the disk and parts of the thrust: reverse flow, separated flow, past the static stall angle, beyond
+        drag divergence."""
+        return self.shown.regions
+
+    @property
     def reverse_flow_area(self) -> float:
         """Part of the disk πR² with U_T < 0 on the blade (0…1)."""
-        return self.shown.areas[0]
+        return self.regions.reverse_flow
 
     @property
     def stalled_area(self) -> float:
-        """Part of the disk πR² beyond the stall angle, or with dynamic stall where the flow is separated over 30 % of
-        the chord; reverse flow not counted (0…1)."""
-        return self.shown.areas[1]
+        """Part of the disk πR² where the flow is separated: over 30 % of the chord, or in steady flow beyond the stall
+        angle; reverse flow not counted (0…1)."""
+        return self.regions.separated
+
+    @property
+    def past_static_area(self) -> float:
+        """Part of the disk πR² past the static stall angle with the flow still attached; reverse flow not counted
+        (0…1). 0 for steady sections."""
+        return self.regions.past_static
 
     @property
     def stalled_thrust(self) -> float:
-        """Part of the thrust that stalled sections carry [-]; negative if their lift is downward."""
-        return self.shown.areas[2]
+        """Part of the thrust that separated sections carry [-]; negative if their lift is downward."""
+        return self.regions.separated_thrust
 
     @property
     def stalled_moment(self) -> float:
-        """Part of the lift moment about the hub, Σ r dT, that stalled sections carry [-]."""
-        return self.shown.areas[3]
+        """Part of the lift moment about the hub, Σ r dT, that separated sections carry [-]."""
+        return self.regions.separated_moment
 
     @property
     def least_margin(self) -> float:
-        """Least margin to stall outside reverse flow, negative where `stalled_area` is not 0: of the angle of attack
-        [rad], or with dynamic stall of the separation point [chords]."""
-        return self.shown.areas[4]
+        """Least distance to separation outside reverse flow, negative where `stalled_area` is not 0: of the angle of
+        attack [rad], or with dynamic stall of the separation point [chords]."""
+        return self.regions.least_margin
 
     @property
     def elastic(self) -> ElasticTwist | None:

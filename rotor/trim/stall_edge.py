@@ -1,6 +1,8 @@
-"""How far a trim is from the edge of stall: where the first section stalls, or the last one no longer does."""
+"""How far a trim is from the edge of stall: where the flow of the first section separates, or of the last one no longer
+does."""
 
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator
+from dataclasses import dataclass
 
 from scipy.optimize import brentq
 
@@ -11,13 +13,56 @@ from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
 _STEPS = 8
-"""Steps to either side on which the edge is looked for; stall that comes and goes within one is missed."""
+"""Steps to either side on which an edge is looked for; stall that comes and goes within one is missed."""
 _FINENESS = 1e-2
 """How near the edge is found, in steps."""
-
+_MU_STEP, _MASS_STEP, _TWIST_STEP = 0.02, 0.04, 1.0
+"""Steps of the advance ratio [-], of the mass as a part of it, and of a linear twist on top [°/R]."""
 
 _Put = Callable[[Design, float], Design]
 """A design of which something is larger by a number."""
+_Place = tuple[float, Solution]
+"""A change, and the trim there."""
+
+
+@dataclass(frozen=True)
+class AttachedRange:
+    """The nearest advance ratios [-] between which no flow is separated; None: an end that was not found."""
+
+    low: float | None = None
+    high: float | None = None
+
+
+@dataclass(frozen=True)
+class StallEdges:
+    """The edges of stall about a trim."""
+
+    separated: bool
+    """Whether some flow is separated at the trim itself."""
+    mu: AttachedRange
+    mass_kg: float | None
+    """By how much the mass differs at the nearest edge [kg]; None where there is none, as for `twist_deg`."""
+    twist_deg: float | None
+    """By how much twist differs there [°/R], linear on top."""
+
+
+def stall_edges(solution: Solution) -> Generator[None, None, StallEdges]:
+    """The nearest edges of stall by advance ratio, by mass and by twist alone.
+
+    An edge is where `Solution.least_margin` is zero: there separated flow begins or ends. It is looked for within 8
+    steps of 0.02, 4 % of the mass and 1 °/R, as far as there are trims. Yields before each step.
+    """
+    design = solution.design
+    mu = yield from _attached_range(solution)
+    mass_step = _MASS_STEP * design.condition.mass
+    mass = yield from _nearest(_Way(solution, _of_condition("mass_kg"), mass_step))
+    twist = yield from _nearest(_Way(solution, _twisted, _TWIST_STEP))
+    return StallEdges(
+        separated=_separated(solution),
+        mu=mu,
+        mass_kg=None if mass is None else mass.change,
+        twist_deg=None if twist is None else twist.change,
+    )
 
 
 def _of_condition(name: str) -> _Put:
@@ -29,44 +74,88 @@ def _twisted(design: Design, change: float) -> Design:
     return design.with_twist(SumTwist(design.twist, LinearTwist.of(change)))
 
 
-_WAYS: Mapping[str, tuple[_Put, float]] = {
-    "mu": (_of_condition("mu"), 0.02),
-    "mass_kg": (_of_condition("mass_kg"), 0.04),
-    "twist": (_twisted, 1.0),
-}
-"""What is changed, and the step: of the mass as a part of it, of a linear twist on top [°/R]."""
+def _separated(solution: Solution) -> bool:
+    return solution.least_margin < 0.0
 
 
-def stall_edges(solution: Solution) -> Generator[None, None, dict[str, float | None]]:
-    """By how much advance ratio [-], mass [kg] and twist [°/R, linear, on top] differ at the nearest edge of stall.
+@dataclass(frozen=True, eq=False)
+class _Way:
+    """A trim, what is changed from it, and in which steps."""
 
-    The edge is where `Solution.least_margin` is zero: there a stalled area begins or ends. None where there is none
-    within 8 steps of 0.02, 4 % of the mass and 1 °/R, or no trim on the way there. Yields before each step.
-    """
-    found = dict[str, float | None]()
-    for name, (put, step) in _WAYS.items():
-        size = step * solution.design.condition.mass if name == "mass_kg" else step
-        found[name] = yield from _nearest(solution, put, size)
-    return found
+    solution: Solution
+    put: _Put
+    step: float
+
+    def trim(self, change: float, near: Solution) -> Solution | None:
+        """The trim after a change; None where there is none."""
+        return _trim(self.put, self.solution.design, change, near)
 
 
-def _nearest(solution: Solution, put: _Put, step: float) -> Generator[None, None, float | None]:
-    stalls = solution.least_margin < 0.0
-    ends = {1.0: (0.0, solution), -1.0: (0.0, solution)}
+@dataclass(frozen=True, eq=False)
+class _Edge:
+    change: float
+    side: float
+    """1 where a larger quantity lies beyond the edge, −1 where a smaller one does."""
+    beyond: _Place
+    """The first trim found beyond it."""
+
+
+def _attached_range(solution: Solution) -> Generator[None, None, AttachedRange]:
+    way = _Way(solution, _of_condition("mu"), _MU_STEP)
+    here = solution.design.condition.advance_ratio
+    ends = dict[float, float]()
+    if _separated(solution):
+        near = yield from _nearest(way)
+        if near is None:
+            return AttachedRange()
+        ends[-near.side] = here + near.change
+        again = yield from _edge_on_side(way, near.side, near.beyond)
+        if again is not None:
+            ends[near.side] = here + again.change
+    else:
+        for side in (-1.0, 1.0):
+            edge = yield from _edge_on_side(way, side, (0.0, solution))
+            if edge is not None:
+                ends[side] = here + edge.change
+    return AttachedRange(ends.get(-1.0), ends.get(1.0))
+
+
+def _edge_on_side(way: _Way, side: float, begin: _Place) -> Generator[None, None, _Edge | None]:
+    """The first edge from a place on, to one side; None where there is none."""
+    before = begin
+    for _ in range(_STEPS):
+        yield
+        change = before[0] + side * way.step
+        there = way.trim(change, before[1])
+        if there is None:
+            return None
+        if _separated(there) != _separated(before[1]):
+            return _edge(way, side, before, (change, there))
+        before = change, there
+    return None
+
+
+def _nearest(way: _Way) -> Generator[None, None, _Edge | None]:
+    """The nearest edge to either side; None where there is none."""
+    separated = _separated(way.solution)
+    ends = {1.0: (0.0, way.solution), -1.0: (0.0, way.solution)}
     for k in range(1, _STEPS + 1):
-        for side, (before, near) in list(ends.items()):
-            change = side * k * step
+        for side, before in list(ends.items()):
+            change = side * k * way.step
             yield
-            there = _trim(put, solution.design, change, near)
+            there = way.trim(change, before[1])
             if there is None:
                 del ends[side]
-            elif (there.least_margin < 0.0) == stalls:
+            elif _separated(there) == separated:
                 ends[side] = change, there
             else:
-                return _root(
-                    solution.design, put, (before, near), (change, there), _FINENESS * step
-                )
+                return _edge(way, side, before, (change, there))
     return None
+
+
+def _edge(way: _Way, side: float, inner: _Place, outer: _Place) -> _Edge | None:
+    change = _root(way.solution.design, way.put, inner, outer, _FINENESS * way.step)
+    return None if change is None else _Edge(change, side, outer)
 
 
 def _trim(put: _Put, design: Design, change: float, near: Solution) -> Solution | None:
@@ -80,11 +169,11 @@ def _trim(put: _Put, design: Design, change: float, near: Solution) -> Solution 
 def _root(
     design: Design,
     put: _Put,
-    inner: tuple[float, Solution],
-    outer: tuple[float, Solution],
+    inner: _Place,
+    outer: _Place,
     fineness: float,
 ) -> float | None:
-    """Between two trims of which one has a stalled area, within `fineness`; None where none trims between them."""
+    """Between two trims of which one has separated flow, within `fineness`; None where none trims between them."""
     known = dict((inner, outer))
 
     def margin(change: float) -> float:

@@ -234,12 +234,14 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
 
 def _of_the_sections(trim: CaveatInputs) -> dict[str, str]:
     design, fields, disk = trim.design, trim.shown.disk, trim.problem.disk
-    found, stalled = dict[str, str](), trim.shown.areas[1]
-    if stalled > STALL_SHARE:
+    found, separated = dict[str, str](), trim.shown.regions.separated
+    if separated > STALL_SHARE:
         what = "section data are steady, without dynamic stall"
         if fields.unsteady is not None:
             what = "the lags of dynamic stall are those of a NACA 0012"
-        found["stall"] = f"{100.0 * stalled:.1f} % of the disk is stalled; {what}."
+        found["stall"] = (
+            f"The flow is separated over {100.0 * separated:.1f} % of the disk; {what}."
+        )
     if (
         design.models.has("dynamic_stall")
         and not trim.problem.inflow.pointwise
@@ -433,7 +435,7 @@ def _share(stalled: float) -> str:
     """How much of the disk was stalled where the last attempt ended."""
     if stalled <= STALL_SHARE:
         return ""
-    return f" {100.0 * stalled:.0f} % of the disk is stalled in the last attempt."
+    return f" The flow is separated over {100.0 * stalled:.0f} % of the disk in the last attempt."
 
 
 def failure_sentence(design: Design, reached: float, stalled: float) -> str:
@@ -467,8 +469,9 @@ def stalled_sentence(design: Design, stalled: float) -> str:
     """Why a trim with very much stall has no power, and the remedy."""
     advice = _advice(design)
     return (
-        f"Not trimmed: {100.0 * stalled:.0f} % of the lift's moment about the hub comes from stalled sections; beyond "
-        f"{100.0 * MOST_STALLED:.0f} % no rotor here was compared with a measurement. {advice[:1].upper()}{advice[1:]}."
+        f"Not trimmed: {100.0 * stalled:.0f} % of the lift's moment about the hub comes from separated sections; "
+        f"beyond {100.0 * MOST_STALLED:.0f} % no rotor here was compared with a measurement. "
+        f"{advice[:1].upper()}{advice[1:]}."
     )
 
 

@@ -56,8 +56,8 @@ def _none(page: Page, wrong: str, arg: object = None) -> None:
 _WHY = (
     "Nothing has changed.",
     "Lift moved inboard and towards the advancing side: induced −12.3, profile +4.0, tail rotor −0.5 kW.",
-    "Lift moved inboard and towards the advancing side: induced −12.3, profile +4.0, tail rotor −0.5 kW; stall grew "
-    "inboard on the retreating side (12.3 % of the disk); drag divergence grew near the tip on the advancing side "
+    "Lift moved inboard and towards the advancing side: induced −12.3, profile +4.0, tail rotor −0.5 kW; separation "
+    "grew inboard on the retreating side (12.3 % of the disk); drag divergence grew near the tip on the advancing side "
     "(5.3 % of the disk).",
 )
 _STANDS = """() => [...document.querySelectorAll('.rxf-power, .rxf-parts')].map(e => {

@@ -1,6 +1,7 @@
 """The plan of the disk: read under the pointer, around the circle, and by key."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -98,7 +99,9 @@ def test_one_press_shows_the_disk_without_stall(browser: Browser, app: App):
         button.wait_for()
         page.wait_for_function(_READY)
         watched.until(lambda stalls=stalls: ("stall" in page.evaluate(regions)) == stalls)
-        assert ("least margin" in page.locator(".rxf-around").inner_text()) == stalls
+        assert (
+            re.search("static|separated", page.locator(".rxf-around").inner_text()) is not None
+        ) == stalls
         # It stays in reach.
         assert button.bounding_box()["x"] < page.locator(".rxf-views").bounding_box()["x"] / 2.0
         button.click()

@@ -15,7 +15,7 @@ from explorer.picture import disk_image
 from explorer.picture.blade_mesh import inset_sections
 from explorer.picture.fields import FIELDS, fitted_range, keeps_range, over_range
 from explorer.picture.picture import field_values
-from explorer.picture.plan import stall_segments
+from explorer.picture.plan import past_static_segments, separated_segments
 from explorer.picture.polar import (
     DrawnSolution,
     MarkedRegion,
@@ -23,7 +23,6 @@ from explorer.picture.polar import (
     RegionMarks,
     polar_grid,
     region_codes,
-    region_masks,
 )
 from explorer.picture.wake import tip_vortices
 from rotor import Solution, make_design, solve
@@ -54,9 +53,11 @@ def codes_of(solution: Solution, marks: RegionMarks, size: int = 960) -> np.ndar
 
 class TestRegions:
     def test_the_stalled_share_of_the_disk_is_the_solvers(self, fast: Solution):
-        codes = codes_of(fast, RegionMarks(drag_divergence=False, reverse_flow=False))
+        codes = codes_of(
+            fast, RegionMarks(past_static=False, drag_divergence=False, reverse_flow=False)
+        )
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
-        stalled = np.isin(codes, (MarkedRegion.STALLED, MarkedRegion.STALL_RIM)) & (
+        stalled = np.isin(codes, (MarkedRegion.SEPARATED, MarkedRegion.SEPARATED_RIM)) & (
             RefinedFlow(fast, grid).attached < 0.0
         )
         share = (stalled * grid.r[:, None]).sum() / (np.ones_like(stalled) * grid.r[:, None]).sum()
@@ -65,7 +66,7 @@ class TestRegions:
         assert share > 0.02
 
     def test_reverse_flow_is_the_circle_r_equals_minus_mu_sin_psi(self, fast: Solution):
-        codes = codes_of(fast, RegionMarks(stall=False, drag_divergence=False))
+        codes = codes_of(fast, RegionMarks(stall=False, past_static=False, drag_divergence=False))
         grid = polar_grid(fast.disk, *disk_image.grid_size(960))
         mu = fast.design.condition.advance_ratio * math.cos(fast.controls.shaft_tilt)
         edge = grid.r[:, None] + mu * np.sin(grid.psi)[None, :]
@@ -76,7 +77,10 @@ class TestRegions:
         assert np.abs(edge[rim]).max() < 0.02
 
     def test_drag_divergence_is_dashed(self, fast: Solution):
-        dashes = codes_of(fast, RegionMarks(stall=False, reverse_flow=False)) == MarkedRegion.DASH
+        dashes = (
+            codes_of(fast, RegionMarks(stall=False, past_static=False, reverse_flow=False))
+            == MarkedRegion.DASH
+        )
         around = dashes.any(axis=0)
         assert np.count_nonzero(np.diff(around.astype(int)) == 1) > 10
 
@@ -91,10 +95,37 @@ class TestDynamicStall:
         assert 0.0 < separation.min() < 0.5 < separation.max() <= 1.0
         assert 0.02 < vortex.max() < 1.0
         grid = polar_grid(solution.disk, 80, 240)
-        masks, flow = region_masks(DrawnSolution(solution), grid), RefinedFlow(solution, grid)
-        stalled = masks["stall"]
-        assert np.mean(stalled != (flow.margin < 0.0) & (flow.u_t > 0.0)) / np.mean(stalled) > 0.05
-        assert len(stall_segments(solution)) > 10
+        flow = RefinedFlow(solution, grid)
+        separated = (flow.attached < 0.0) & (flow.u_t > 0.0)
+        beyond = (flow.margin < 0.0) & (flow.u_t > 0.0)
+        assert np.mean(separated != beyond) / np.mean(separated) > 0.05
+        assert len(separated_segments(solution)) > 10
+
+    def test_past_the_static_angle_and_attached_is_a_region_of_its_own(self):
+        """Between them the two regions have all that is past the static angle, and share nothing."""
+        solution = solve(make_design(mu=0.35, mass_kg=9500.0)).require()
+        grid = polar_grid(solution.disk, 120, 480)
+        flow = RefinedFlow(solution, grid)
+        assert flow.past_static is not None
+        past, separated = flow.past_static < 0.0, flow.attached < 0.0
+        assert not (past & separated).any()
+        assert ((past | separated) >= (flow.margin < 0.0)).all()
+        assert len(past_static_segments(solution)) > 10
+        ahead = past & (flow.u_t > 0.0)
+        area = (ahead * grid.r[:, None]).sum() / grid.r.sum() / len(grid.psi)
+        disk = 1.0 - grid.r[0] ** 2
+        assert area * disk == pytest.approx(solution.past_static_area, abs=0.003)
+        assert solution.past_static_area > 0.01
+        steady = solve(make_design(mu=0.35, mass_kg=9500.0, off="dynamic-stall")).require()
+        assert steady.past_static_area == 0.0
+        assert len(past_static_segments(steady)) == 0
+        assert steady.stalled_area > 0.0
+
+    def test_the_dotted_edge_is_marked_only_where_it_is_asked_for(self):
+        solution = solve(make_design(mu=0.35, mass_kg=9500.0)).require()
+        only = RegionMarks(stall=False, reverse_flow=False, drag_divergence=False)
+        dotted = codes_of(solution, only) == MarkedRegion.SEPARATED_RIM
+        assert np.count_nonzero(np.diff(dotted.any(axis=0).astype(int)) == 1) > 10
 
 
 class TestRanges:

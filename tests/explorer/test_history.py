@@ -27,7 +27,8 @@ START = Inputs()
 LONG, DIGITS = 5.0, "9" * 400
 VIEWS = st.builds(
     ViewState, field=st.sampled_from(tuple(FIELDS)), exaggeration=st.sampled_from((1.0, 1.5, 5.0, 6.0)),
-    difference=st.booleans(), reverse_flow=st.booleans(), stall=st.booleans(), drag_divergence=st.booleans(),
+    difference=st.booleans(), reverse_flow=st.booleans(), stall=st.booleans(), past_static=st.booleans(),
+    drag_divergence=st.booleans(),
     units=st.sampled_from(tuple(UNITS)), wake=st.booleans(),
 )  # fmt: skip
 FIRST = Inputs(law="linear", linear=-8.0)

@@ -13,7 +13,7 @@ from explorer.model.session_state import SessionState
 from explorer.parts.stage import PackedTable
 from explorer.picture.element import probe
 from explorer.picture.fields import FIELDS
-from explorer.picture.plan import plan, region_shares
+from explorer.picture.plan import plan
 from explorer.picture.polar import CLEAR_OF_REVERSE, DrawnSolution, polar_grid
 from explorer.widgets.display import Display
 from rotor import Solution, make_design, solve
@@ -38,18 +38,24 @@ def table(packed: PackedTable, like: Array) -> Array:
 
 
 def test_regions_cover_as_much_of_the_disk_as_the_solution_says(solution: Solution):
-    shares = region_shares(solution)
-    (stalled, thrust), words = (
-        shares["stall"],
-        plan(solution, ViewState(), ALPHA, (0.0, 9.0), False).regions,
-    )
-    assert words[0].words.startswith(f"{100.0 * solution.stalled_area:.1f} % area"), (
-        "as on the card"
-    )
-    assert len(words[0].lines) > 0
-    assert shares["reverse_flow"][0] == pytest.approx(solution.reverse_flow_area, abs=0.001)
-    assert abs(thrust) < stalled  # Where the flow is slow there is little lift to lose.
-    assert shares["reverse_flow"][1] < 0.0  # Air from behind presses the blade down there.
+    regions = solution.regions
+    shown = {one.name: one for one in plan(solution, ViewState(), ALPHA, (0.0, 9.0), False).regions}
+    for name, area, thrust in (
+        ("stall", solution.stalled_area, solution.stalled_thrust),
+        ("past_static", solution.past_static_area, regions.past_static_thrust),
+        ("reverse_flow", solution.reverse_flow_area, regions.reverse_flow_thrust),
+        ("drag_divergence", regions.drag_divergence, regions.drag_divergence_thrust),
+    ):
+        if name in shown:
+            words = f"{100.0 * area:.1f} % area · {100.0 * thrust:z.1f} % thrust"
+            assert shown[name].words == words.replace("-", "−")
+            assert len(shown[name].lines) > 0
+        else:
+            assert area < 0.001
+    # Where the flow is slow there is little lift to lose.
+    assert abs(solution.stalled_thrust) < solution.stalled_area
+    # Air from behind presses the blade down there.
+    assert regions.reverse_flow_thrust < 0.0
 
 
 def test_values_under_the_pointer_are_those_of_the_stations_and_of_the_field(solution: Solution):
@@ -82,9 +88,11 @@ def test_values_under_the_pointer_are_those_of_the_stations_and_of_the_field(sol
 
 
 def test_a_moving_plan_carries_no_values_and_switches_hide_regions(solution: Solution):
-    moving = plan(solution, ViewState(stall=False), ALPHA, (-4.0, 10.0), at_rest=False)
+    moving = plan(
+        solution, ViewState(stall=False, past_static=False), ALPHA, (-4.0, 10.0), at_rest=False
+    )
     assert moving.values is None
-    assert "stall" not in {one.name for one in moving.regions}
+    assert {"stall", "past_static"}.isdisjoint(one.name for one in moving.regions)
 
 
 def test_the_field_of_a_is_on_the_plan_while_it_is_wiped(solution: Solution):
@@ -140,8 +148,13 @@ def test_the_key_says_which_regions_the_disk_has_none_of():
         display.show(SessionState(Inputs(), shown, solution, solution, None))
         return page.state["field"].shares
 
-    assert told(0.0) == dict.fromkeys(("stall", "reverse_flow", "drag_divergence"), "none")
-    assert told(0.0, stall=False, reverse_flow=False, drag_divergence=False) == {}
-    assert told(0.2) == {"stall": "0.1 %", "drag_divergence": "none"}
+    assert told(0.0) == dict.fromkeys(
+        ("stall", "past_static", "reverse_flow", "drag_divergence"), "none"
+    )
+    assert (
+        told(0.0, stall=False, past_static=False, reverse_flow=False, drag_divergence=False) == {}
+    )
+    assert told(0.2) == {"stall": "0.1 %", "past_static": "2.0 %", "drag_divergence": "none"}
     assert told(0.2, ("stall",))["stall"] == "not modelled"
+    assert told(0.2, ("dynamic_stall",))["past_static"] == "none"
     assert told(0.302) == {"stall": "0.0 %"}  # As the plan says beside its outline.

@@ -15,9 +15,10 @@ from explorer.views.waterfall import costs, waterfall_chart, waterfall_work
 from rotor import make_design, solve
 from rotor.aero.switches import SWITCHES, with_switches
 from rotor.study.series import WaterfallStep, waterfall
+from rotor.trim.stall_edge import AttachedRange, StallEdges
 
 DESIGN = make_design(mu=0.35, mass_kg=9500.0, elements=12, azimuths=24, inflow="pitt-peters")
-EDGES = True, 0.35, {"mu": -0.0312, "mass_kg": -620.0, "twist": 2.14}
+EDGES = StallEdges(True, AttachedRange(None, 0.3188), mass_kg=-620.0, twist_deg=2.14)
 
 
 @cache
@@ -61,14 +62,47 @@ def test_the_disk_says_what_the_waterfall_says():
 def test_edges_are_said_in_the_units_of_the_page_and_stale_ones_are_marked():
     now = known()
     lines = prices(now)["prices"]["stall"].lines
-    assert lines[1:] == ("Ends at µ 0.319", "or with 0.62 t less", "or with twist +2.1°/R")
+    assert lines[1:] == ("Ends below µ 0.319", "or with 0.62 t less", "or with twist +2.1°/R")
     waits = prices(replace(now, answers={}))["prices"]["stall"]
     assert waits.lines == ("Computing …",)
     assert waits.stale
-    latest = replace(now.memory, latest={"stall-edges": (False, *EDGES[1:]), "waterfall": steps()})
+    latest = replace(now.memory, latest={"stall-edges": EDGES, "waterfall": steps()})
     old = prices(replace(now, answers={}, memory=latest))["prices"]["stall"]
     assert old.stale
-    assert old.lines[1] == "Begins at µ 0.319"
+    assert old.lines == lines
+
+
+@pytest.mark.parametrize(
+    ("separated", "low", "high", "words"),
+    [
+        (False, 0.26, 0.3, "None between µ 0.260 and 0.300"),
+        (True, 0.26, 0.3, "None between µ 0.260 and 0.300"),
+        (False, None, 0.3, "Begins above µ 0.300"),
+        (False, 0.26, None, "Begins below µ 0.260"),
+        (True, None, 0.3, "Ends below µ 0.300"),
+        (True, 0.26, None, "Ends above µ 0.260"),
+    ],
+)
+def test_the_speeds_without_separated_flow_are_said_as_far_as_they_are_known(
+    separated: bool, low: float | None, high: float | None, words: str
+):
+    now = known()
+    edges = StallEdges(separated, AttachedRange(low, high), mass_kg=None, twist_deg=None)
+    (work,) = stall_edge_work(now)
+    now = replace(now, answers={**now.answers, work.key: edges})
+    assert prices(now)["prices"]["stall"].lines[1:] == (words,)
+
+
+def test_what_is_not_separated_has_no_price():
+    design = make_design(mu=0.1, mass_kg=7000.0, elements=12, azimuths=24, inflow="pitt-peters")
+    solution = solve(design)
+    assert solution.stalled_area == 0.0
+    state = SessionState(Inputs(), ViewState(), solution, solution, None)
+    now = PageState(Inputs(), solution.design, state, ui=OpenPanels(disk=True))
+    (work,) = stall_edge_work(now)
+    edges = StallEdges(False, AttachedRange(None, 0.3), mass_kg=None, twist_deg=None)
+    now = replace(now, answers={work.key: edges})
+    assert prices(now)["prices"]["stall"].lines == ("Begins above µ 0.300",)
 
 
 def test_with_other_effects_off_there_is_no_cost_and_without_stall_no_edge():

@@ -97,7 +97,7 @@ def test_at_a_station_it_is_what_the_disk_holds(solution: Solution):
             )
         else:
             assert p.stall_margin == pytest.approx(disk.stall_margin[i, j], abs=1e-12)
-            assert (p.region is FlowRegion.STALLED) == disk.stalled[i, j]
+            assert (p.region is FlowRegion.SEPARATED) == disk.stalled[i, j]
 
 
 @pytest.mark.parametrize("solution", ["hover", "fast, on its own grid", "thesis"], indirect=True)
@@ -302,7 +302,7 @@ class TestDynamicStall:
         differ = (unsteady.separation < 0.7) & (disk.stall_margin > 0.02) & (disk.u_t > 0.1)
         i, j = np.argwhere(differ)[0].tolist()  # Still separated, though the angle has come back.
         p = probe(stalled, float(disk.r[i]), float(disk.psi[j]))
-        assert p.region is FlowRegion.STALLED
+        assert p.region is FlowRegion.SEPARATED
         assert p.unsteady.separation == pytest.approx(unsteady.separation[i, j], abs=1e-12)
 
     def test_without_stall_there_is_no_margin(self, stalled: Solution):

@@ -75,7 +75,8 @@ class TestDrawing:
     def test_the_key_has_only_what_is_marked_and_there(self):
         assert [title for title, _ in key_entries(FAST)] == [
             "reverse flow",
-            "stall",
+            "separated",
+            "past the static angle",
             "drag divergence",
         ]
         assert "reverse flow" not in dict(key_entries(solve(NOW.design.at(hover=True))))

@@ -199,18 +199,46 @@ class TestAlpha:
         lower, upper, alpha = angles_along(cruise, 65.0)
         assert_allclose(line(chart, "this"), alpha)
         margin = float(np.nanmin(np.minimum(upper - alpha, alpha - lower)))
-        assert chart.value == f"{margin:.1f}° to stall"
+        assert chart.value == f"{margin:.1f}° to static stall"
         lost = replace(linear, status=Status.NOT_CONVERGED)
         assert "reference" not in roles(alpha_chart(cruise, lost, 65.0))
         assert "pinned" in roles(alpha_chart(cruise, linear, 65.0, compared="pinned"))
 
-    def test_a_stalled_blade_says_where(self):
+    def test_separated_flow_and_angles_past_the_static_one_are_told_apart(self):
         heavy = solve(make_design(mu=0.3, mass_kg=9800.0)).require()
-        psi = np.degrees(heavy.disk.psi)
-        stalled = ((heavy.disk.stall_margin < 0.0) & (heavy.disk.u_t > 0.0)).sum(axis=0)
-        chart = alpha_chart(heavy, None, float(psi[np.argmax(stalled)]))
-        assert chart.value == "stalled"
-        assert chart.note.startswith("Stalled between 0.")
+        disk = heavy.disk
+        psi = np.degrees(disk.psi)
+        chart = alpha_chart(heavy, None, float(psi[np.argmax(disk.stalled.sum(axis=0))]))
+        assert chart.value == "separated"
+        assert chart.note.startswith("Separated between 0.")
+        past = (disk.stall_margin < 0.0) & (disk.u_t > 0.0) & ~disk.stalled
+        only = past.any(axis=0) & ~disk.stalled.any(axis=0)
+        chart = alpha_chart(heavy, None, float(psi[np.argmax(only)]))
+        assert chart.value == "past the static angle"
+        assert chart.note.startswith("Past the static stall angle, still attached, between 0.")
+
+    def test_shaded_is_what_lies_between_alpha_and_the_static_angle(self):
+        """In the colour of stall just where the flow is separated, as the disk has it."""
+        heavy = solve(make_design(mu=0.3, mass_kg=9800.0)).require()
+        disk, stall = heavy.disk, LOOKS["limit"][0]
+        for column in range(0, len(disk.psi), 3):
+            psi = float(np.degrees(disk.psi[column]))
+            bands = [b for b in alpha_chart(heavy, None, psi).series if isinstance(b, Band)]
+            lower, upper, alpha = angles_along(heavy, psi)
+            static = np.where(alpha > 0.5 * (lower + upper), upper, lower)
+            for row, r in enumerate(disk.r):
+                inside = [band for band in bands if band.x[0] <= r <= band.x[-1]]
+                separated = bool(disk.stalled[row, column])
+                shaded = separated or bool(alpha[row] > upper[row] or alpha[row] < lower[row])
+                assert len(inside) == shaded, (psi, r)
+                for band in inside:
+                    assert (band.colour == stall) == separated
+                    at = list(band.x).index(r)
+                    ends = sorted((alpha[row], static[row]))
+                    assert_allclose((band.low[at], band.high[at]), ends)
+
+    def test_without_stall_nothing_is_said_or_shaded(self):
+        heavy = solve(make_design(mu=0.3, mass_kg=9800.0)).require()
         without = replace(heavy, design=with_switches(heavy.design, ("stall",)))
         assert (
             alpha_chart(without, None, 65.0).value,

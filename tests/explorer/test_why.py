@@ -91,7 +91,7 @@ HEAVY, LIGHT = {"mass": 9000.0}, {"mass": 8000.0}
         (
             LIGHT,
             HEAVY,
-            r"^12 % more weight: induced \+.*; stall appeared inboard on the retreating side",
+            r"^12 % more weight: induced \+.*; separation appeared inboard on the retreating side",
         ),
         (HEAVY, LIGHT, r"^11 % less weight: induced −"),
         (SLOW, FAST, r"^Faster \(µ 0\.3\): parasite \+"),
@@ -103,12 +103,12 @@ HEAVY, LIGHT = {"mass": 9000.0}, {"mass": 8000.0}
         (
             {"mu": 0.3, "mass": 9.8e3},
             {"mu": 0.42, "mass": 9.8e3},
-            "stall grew .*on the retreating side",
+            "separation grew .*on the retreating side",
         ),
         (
             {"mu": 0.0, **HEAVY},
             {"mu": 0.15, **HEAVY},
-            "stall appeared inboard on the retreating side",
+            "separation appeared inboard on the retreating side",
         ),
         (SLOW, {"altitude": 2000.0}, r"^Thinner air \(−18 %\): induced \+.*parasite −"),
         ({"altitude": 2000.0}, SLOW, r"^Denser air \(\+22 %\): induced −"),

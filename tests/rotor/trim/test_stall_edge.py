@@ -81,10 +81,22 @@ def test_edges_are_those_of_the_stalled_area(mass: float, stalls: bool):
     here = solve(design)
     assert (here.stalled_area > 0.0) == stalls == (here.least_margin < 0.0)
     edges = at_once(stall_edges(here))
-    for name, step in (("mu", 0.02), ("mass_kg", 0.04 * mass)):
-        change = edges[name]
-        assert change is not None
-        edge, beside = design.numbers[name] + change, float(np.sign(change)) * NEAR * step
-        near, far = (CONDITION[name].put(design, edge + side * beside) for side in (-1.0, 1.0))
-        assert (solve(near, here).stalled_area > 0.0) == stalls
-        assert (solve(far, here).stalled_area > 0.0) != stalls
+    assert edges.separated == stalls
+    assert edges.mass_kg is not None
+
+    def separates(name: str, value: float) -> bool:
+        return solve(CONDITION[name].put(design, value), here).stalled_area > 0.0
+
+    beside = NEAR * 0.04 * mass * float(np.sign(edges.mass_kg))
+    edge = mass + edges.mass_kg
+    assert separates("mass_kg", edge - beside) == stalls
+    assert separates("mass_kg", edge + beside) != stalls
+    low, high = edges.mu.low, edges.mu.high
+    assert high is not None
+    assert not separates("mu", high - NEAR * 0.02)
+    assert separates("mu", high + NEAR * 0.02)
+    assert (low is not None) == stalls
+    if low is not None:
+        assert low < high
+        assert separates("mu", low - NEAR * 0.02)
+        assert not separates("mu", low + NEAR * 0.02)

@@ -29,7 +29,12 @@ PLACES = ((0.25, 270.0), (0.4, 300.0), (0.5, 0.0), (0.75, 65.0), (0.87, 180.0), 
 """r/R and azimuth [°] of sections that are probed."""
 ACTUATORS = ("MFC_P1", "MFC_P2", "SMA_tube")
 VIEWS = ("3d", "disk", "top", "blade", "side")
-REGIONS = ("reverse_flow_segments", "stall_segments", "drag_divergence_segments")
+REGIONS = (
+    "reverse_flow_segments",
+    "separated_segments",
+    "past_static_segments",
+    "drag_divergence_segments",
+)
 
 
 def write(record: Record) -> None:
@@ -122,7 +127,8 @@ def draw_disk(record: Record, name: str, solution: Any, view: Any) -> None:
     fields = named("explorer.picture.fields.FIELDS")
     marks = record.ask(f"{name}/marks", f"{picture}.picture.marks_of", view)
     record.ask(f"{name}/fields", f"{picture}.fields.fields_of", solution)
-    record.ask(f"{name}/region shares", f"{picture}.plan.region_shares", solution)
+    for region in named("explorer.picture.plan.REGIONS"):
+        record.ask(f"{name}/{region} share", f"{picture}.plan.region_words", solution, region)
     record.ask(f"{name}/around", f"{picture}.plan.around_chart", solution)
     record.ask(f"{name}/key", "explorer.charts.svg.key_entries", solution)
     for region in REGIONS:
