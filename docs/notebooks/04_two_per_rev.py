@@ -62,11 +62,11 @@ plt.ylabel("Change of power at full amplitude [kW]")
 plt.legend()
 
 # %%
-# Power is half of the question: 2/rev also serves against vibration and stall. Check the stalled area.
+# Power is half of the question: 2/rev also serves against vibration and stall. Check the separated area.
 
 chosen = best["retrofit"]
 before, after = (100 * rotor.solve(one).stalled_area for one in (design, chosen))
-print(f"stalled part of the disk: {before:.1f} % without, {after:.1f} % with 2/rev")
+print(f"separated part of the disk: {before:.1f} % without, {after:.1f} % with 2/rev")
 
 # %%
 explorer.show(chosen, browser=False)

@@ -55,7 +55,7 @@ print(best)
 
 solution = rotor.solve(best.design).require()
 rotor.plot_field(solution, "alpha")
-print(f"stalled: {100 * solution.stalled_area:.1f} % of the disk")
+print(f"separated: {100 * solution.stalled_area:.1f} % of the disk")
 for caveat in solution.caveats:
     print("-", caveat.sentence)
 

@@ -152,7 +152,7 @@
       // Beside a plan labels have the shares; of what it has none of there is no label.
       const words = plan && name in shares ? `<span class="rxf-num">${share}</span>` : share;
       return `<button data-do="region" data-value="${name}" aria-pressed="${regions[name]}"
-        ${stall ? 'title="Part of the disk at high and at negative angles of attack"' : ''}>
+        ${stall ? 'title="Part of the disk where the flow is separated over 30 % of the chord or more"' : ''}>
         <svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title} ${words}</button>`;
     });
     if (difference !== null) key.push(`

@@ -23,7 +23,7 @@ UNREAD = f"""() => {{
     return [...small, ...faint];
 }}"""
 SPOKEN: tuple[tuple[str, Any, str], ...] = (
-    ("optimise", "checkbox", "Limit stall"),
+    ("optimise", "checkbox", "Limit past static angle"),
     ("actuate", "slider", "Voltage [%]"),
     ("explore", "slider", "Δ outboard [°/R]"),
 )

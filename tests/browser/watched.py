@@ -83,7 +83,7 @@ class Watched:
 
     def unfold(self, label: str) -> None:
         """Show a control that is folded at first."""
-        if label == "Limit stall" and not self.row(label).is_visible():
+        if label == "Limit past static angle" and not self.row(label).is_visible():
             self.page.get_by_text("Limits", exact=True).click()
             self.row(label).wait_for()
         if label.startswith(

@@ -78,9 +78,12 @@ class OptimisePanel:
         form.slider("first", Slider("Break 1 [r/R]", 0.2, 0.6, 0.01), first.first, entry=where)
         form.slider("second", Slider("Break 2 [r/R]", 0.65, 0.95, 0.01), first.second, entry=where)
         with gui.add_folder("Limits", expand_by_default=False):
-            form.box("limit_stall", "Limit stall", False)
+            form.box("limit_stall", "Limit past static angle", False)
             form.slider(
-                "stalled", Slider("Stalled [%]", 0.0, 20.0, 0.5), 5.0, entry="stalled_limit"
+                "stalled",
+                Slider("Past the static angle [%]", 0.0, 20.0, 0.5),
+                5.0,
+                entry="stalled_limit",
             )
             form.box("limit_change", "Limit change of twist", False)
             form.slider(
