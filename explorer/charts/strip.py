@@ -350,6 +350,8 @@ class _BladeFlow(NamedTuple):
     """Past the static stall angle with the flow still attached."""
 
 
+_SHADE = 0.45
+"""Opacity of what lies between α and the static stall angle."""
 _ALONG_BLADE = 240
 """Even radii, besides those of the elements, at which regions along a blade are told apart."""
 
@@ -385,7 +387,7 @@ def _past_static_bands(blade: _BladeFlow) -> list[Band]:
         for part in _stretches(where):
             x, alpha, static = blade.r[part], blade.alpha[part], blade.static[part]
             low, high = np.minimum(alpha, static), np.maximum(alpha, static)
-            bands.append(Band("", x, low, high, colour))
+            bands.append(Band("", x, low, high, colour, opacity=_SHADE))
     return bands
 
 

@@ -58,7 +58,11 @@ def _cost(step: WaterfallStep, units: Units, on: bool) -> str:
     if step.note or step.added is None:
         return cost_words(step, units)
     does = "save" if step.added > 0.0 else "cost"
-    return f"{f'{does.capitalize()}s' if on else f'Would {does}'} {units.watts(abs(step.added), 1)}"
+    verb = f"{does.capitalize()}s" if on else f"Would {does}"
+    size = units.watts(abs(step.added), 1)
+    if size == units.watts(0.0, 1):
+        size = f"less than {units.watts(0.1 * units.power[0].size, 1)}"
+    return f"{verb} {size}"
 
 
 def _edges(edges: StallEdges, units: Units) -> list[str]:
@@ -80,7 +84,7 @@ def _speeds(attached: AttachedRange, verb: str) -> list[str]:
     """Between which advance ratios no flow is separated."""
     low, high = (end if end is None else number(end, 3) for end in (attached.low, attached.high))
     if low is not None and high is not None:
-        return [f"None between µ {low} and {high}"]
+        return [f"None from µ {low} to {high}"]
     beyond, before = ("above", "below") if verb == "Ends" else ("below", "above")
     if low is not None:
         return [f"{verb} {beyond} µ {low}"]

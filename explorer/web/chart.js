@@ -114,11 +114,11 @@ const Charts = (() => {
           ${dashes ? `stroke-dasharray="${dashes}"` : ''}/>
         ${dots ? DRAWN.points({x, y, colour, size: 3}, place) : ''}`;
     },
-    band({x, low, high, colour}, {X, Y}) {
+    band({x, low, high, colour, opacity = .17}, {X, Y}) {
       const known = x.map((_, k) => k).filter(k => low[k] !== null && high[k] !== null);
       const edge = values => known.map(k => [X(x[k]), Y(values[k])]);
       const path = known.length && `${trace([...edge(low), ...edge(high).reverse()])}Z`;
-      return path ? `<path d="${path}" fill="${colour}" opacity=".17" data-band/>` : '';
+      return path ? `<path d="${path}" fill="${colour}" opacity="${opacity}" data-band/>` : '';
     },
     points(series, {X, Y, low = undefined, high = undefined, settle}) {
       const {x, y, colour, mark = 'dot', size = 4, name_place: side, action} = series, ring = mark === 'ring';

@@ -338,7 +338,7 @@
     own.forEach((there, k) => {
       const kind = !there ? null : there.separated ? 'stall' : there.margin < 0 ? 'dim' : null;
       if (!kind) { before = null; return; }
-      if (kind !== before) bands.push({kind: 'band', x: [], low: [], high: [], colour: `var(--rx-${kind})`});
+      if (kind !== before) bands.push({kind: 'band', x: [], low: [], high: [], colour: `var(--rx-${kind})`, opacity: .45});
       before = kind;
       const {alpha, upper, lower} = there, band = bands.at(-1);
       const [one, other] = inside([alpha, alpha > (upper + lower) / 2 ? upper : lower]);

@@ -1,9 +1,9 @@
 """Limits of a search as smooth functions that are positive inside, with exact gradients.
 
-The stalled area of a `Solution` counts cells, so it changes in steps. Here each cell counts by a logistic function of
-its margin to the stall angle of its section, half where the margin is zero, and fades out towards reverse flow. As both
-widths go to zero the measure becomes the count of cells beyond that angle: the stalled area of steady sections, while
-that of a `Solution` with dynamic stall counts where the flow has separated, later and elsewhere.
+What is limited is the area past the static stall angle, separated or attached. Each cell counts by a logistic function
+of its margin to the stall angle of its section, half where the margin is zero, and fades out towards reverse flow. As
+both widths go to zero the measure becomes the count of cells beyond that angle: `stalled_area` plus `past_static_area`
+of a `Solution`, but for cells where separated flow has come back below the angle.
 """
 
 import math
@@ -108,7 +108,7 @@ class Limits:
             )
         if self.stalled is not None and not 0.0 <= self.stalled <= 1.0:
             raise ValueError(
-                f"stalled-area limit {100 * self.stalled:g} % is outside 0…100 %: choose a value inside"
+                f"limit of the area past the static angle {100 * self.stalled:g} % is outside 0…100 %: choose a value inside"
             )
         if self.index is not None and not 0.0 < self.index < math.inf:
             raise ValueError(

@@ -59,7 +59,7 @@ class Minimum:
     starts: tuple[int, ...]
     """The starts that lead here; none where only the gradients at other points did."""
     active: tuple[str, ...]
-    """Active bounds and limits, for example `division high` or `stalled area`."""
+    """Active bounds and limits, for example `division high` or `area past the static angle`."""
     index: float | None = None
     """Vibration index [%], the mean over the conditions, where objective or limits ask for it."""
 

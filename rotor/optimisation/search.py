@@ -388,8 +388,8 @@ def optimise(
         division: r/R where the segments meet, for the concepts that hold it fixed.
         quantity: what to minimise: power, `total` or `induced`, or `vibration`: the index of the loads on the hub at
             N_b per revolution, for a design with `bending` and from advance ratio 0.2 on.
-        limits: `rotor.Limits` on twist rates, on the change of twist, on the stalled area and on the vibration index;
-            by default the concept's own bounds.
+        limits: `rotor.Limits` on twist rates, on the change of twist, on the area past the static stall angle and on
+            the vibration index; by default the concept's own bounds.
         starts: number of descents.
         seed: of their starting points.
 

@@ -125,6 +125,7 @@ class Band:
     low: Values
     high: Values
     colour: Colour = None
+    opacity: float = 0.17
 
     def __post_init__(self) -> None:
         _keep(self, "x", "low", "high")
@@ -266,6 +267,7 @@ class DrawnPoints(_DrawnSeries, frozen=True, tag="points"):
 class DrawnBand(_DrawnSeries, frozen=True, tag="band"):
     low: list[float | None]
     high: list[float | None]
+    opacity: float = 0.17
 
 
 class DrawnChart(Struct, frozen=True, omit_defaults=True):
@@ -317,7 +319,7 @@ def _drawn_series(
     x = _rounded(series.x, digits["x"])
     if isinstance(series, Band):
         low, high = _rounded(series.low, digits["y"]), _rounded(series.high, digits["y"])
-        return DrawnBand(series.label, colour, x, low, high)
+        return DrawnBand(series.label, colour, x, low, high, series.opacity)
     y = _rounded(series.y, digits["y"])
     if isinstance(series, Line):
         return DrawnLine(

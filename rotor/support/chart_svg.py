@@ -177,7 +177,9 @@ def _drawn(
             if all(map(math.isfinite, (*pair[0], *pair[1])))
         ]
         around = [*(pair[0] for pair in known), *(pair[1] for pair in reversed(known))]
-        return tag("path", d=_path(around), fill=colour, fill_opacity=0.16) if known else Markup()
+        if not known:
+            return Markup()
+        return tag("path", d=_path(around), fill=colour, fill_opacity=series.opacity)
     places = axes.places(series.x, series.y)
     known = [place for place in places if all(map(math.isfinite, place))]
     if isinstance(series, Line):

@@ -182,7 +182,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("reach", rf"of ({NUMBER}…{NUMBER}°)\.", part.sentence)
     said = line_text(now)
     read("power", "needs # ±", said)
-    read("power", ": # kW, # % of the disk", flight["flight"].words)
+    read("power", r": # kW, [0-9.]+ % of the disk", flight["flight"].words)
     read("stalled", "# % of the disk separated", flight["flight"].words)
     read("power here", "kW.*: # ± .*kW (?:more|less) than", said)
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))

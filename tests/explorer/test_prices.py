@@ -75,8 +75,8 @@ def test_edges_are_said_in_the_units_of_the_page_and_stale_ones_are_marked():
 @pytest.mark.parametrize(
     ("separated", "low", "high", "words"),
     [
-        (False, 0.26, 0.3, "None between µ 0.260 and 0.300"),
-        (True, 0.26, 0.3, "None between µ 0.260 and 0.300"),
+        (False, 0.26, 0.3, "None from µ 0.260 to 0.300"),
+        (True, 0.26, 0.3, "None from µ 0.260 to 0.300"),
         (False, None, 0.3, "Begins above µ 0.300"),
         (False, 0.26, None, "Begins below µ 0.260"),
         (True, None, 0.3, "Ends below µ 0.300"),

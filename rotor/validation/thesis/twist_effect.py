@@ -226,7 +226,7 @@ def figure_3_15() -> Report:
         mu: 1.0 - slower_kw(rate, mu) / main_rotor_kw("flight", saving, mu)
         for mu, rate, saving in rates
     }
-    beyond = "" if flown == FULL else f" beyond µ {flown[-1]:g} too much of the disk is stalled,"
+    beyond = "" if flown == FULL else f" beyond µ {flown[-1]:g} too much of the disk is separated,"
     spread = [max(_percent("flight", rate, mu) for rate in FIVE_RATES) for mu in FULL]
     return report(
         "3.15",

@@ -162,7 +162,7 @@ def test_stalled_area_limit_is_kept():
     free, best = searched(design, "two-segment")
     limit = 0.9 * stalled(free.design)
     held, calm = searched(design, "two-segment", limits=Limits(stalled=limit), starts=3)
-    assert "stalled area" in calm.active
+    assert "area past the static angle" in calm.active
     assert stalled(held.design) <= limit + 2e-5
     assert calm.power > best.power
 
