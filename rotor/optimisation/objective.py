@@ -143,7 +143,7 @@ class ObjectiveValue:
     index: float | None = None
     """Mean index [%] where objective or limits ask for it."""
     limited: tuple[float, ...] = ()
-    """What the limits hold [%]: the area past the static angle, smooth, on every condition, then the index on every one."""
+    """What the limits hold [%]: the area past the static angle on every condition, then the index on every one."""
     limited_by_pitch: Array | None = None
     """[1/rad], (limited, elements)"""
 
