@@ -34,15 +34,13 @@ class PowerShare:
 class PowerPart:
     """The power card: its parts and why it changed.
 
-    `ideal`: least induced power at this lift, as a share of all parts. `coverage`: how often a measured power lies in
-    the band of a computed one.
+    `ideal`: least induced power at this lift, as a share of all parts.
     """
 
     parts: Sequence[PowerShare] = ()
     ideal: float | None = None
     ideal_title: str = ""
     why: str = ""
-    coverage: str = ""
 
 
 @dataclass(frozen=True)
@@ -72,13 +70,10 @@ class LinePiece:
 
 @dataclass(frozen=True)
 class LinePart:
-    """The sentence on top. `named_sliders`: labels of the sliders that it names. `problem`: why there is no
-    trim; the other parts then show the last one.
-    """
+    """The sentence on top. `problem`: why there is no trim; the other parts then show the last one."""
 
     pieces: Sequence[LinePiece]
     status: LineStatus
-    named_sliders: Sequence[str] = ()
     problem: str = ""
 
 

@@ -4,10 +4,8 @@ import math
 from dataclasses import replace
 from typing import Any
 
-from explorer.model.inputs import LAWS, TWISTS
 from explorer.model.units import number
 from explorer.parts.results import LinePart, LinePiece, LineStatus
-from explorer.text.design_words import AS_BUILT
 from explorer.text.line import (
     WIDE,
     change_pieces,
@@ -36,12 +34,6 @@ from explorer.views.work import shown_doubt
 from rotor.actuator.verdict import MIN_SHOWN_W
 from rotor.design.quantity import Slider
 
-_BUILT = [
-    row.slider.label.partition(" [")[0]
-    for row in map(TWISTS.get, LAWS["builtin"].inputs)
-    if row and row.slider
-]
-"""Labels of the sliders that are all at zero where the twist is as built."""
 _DRIVE = Slider("Voltage [%]", -100.0, 100.0, 1.0)
 
 
@@ -57,8 +49,6 @@ def line(now: PageState) -> LinePart:
     problem = units.in_sliders(now.problem, 0.0 if one is None else one.mass)
     pieces = flight_pieces(now.shown, units)
     pieces += twist_pieces(now.shown, now.preview or now.sliders) if one is None else _actuator(one)
-    named = tuple(piece.control.label for piece in pieces if piece.control is not None)
-    named += tuple(_BUILT if any(piece.text == AS_BUILT for piece in pieces) else ())
     if problem or state is None:
         words = (
             f" has no trim: {problem.removeprefix('Not trimmed: ').rstrip('.')}"
@@ -66,12 +56,12 @@ def line(now: PageState) -> LinePart:
             else " …"
         )
         pieces.append(LinePiece(words, "problem"))
-        return LinePart(pieces, LineStatus("problem", "", problem), named, problem)
+        return LinePart(pieces, LineStatus("problem", "", problem), problem)
     doubts = [(task, *now.latest(task)) for task in shown_doubt(now)]
     band, known = (doubts[0][1], doubts[0][2]) if doubts else (None, True)
     pieces += power_pieces(state.solution, units, band, known)
     pieces += _flight_change(one) if one is not None else _change(now)
-    return LinePart(pieces, status(state, units), named)
+    return LinePart(pieces, status(state, units))
 
 
 def _actuator(one: ActuatedBlade) -> list[LinePiece]:

@@ -6,12 +6,11 @@ from typing import Any
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
 from explorer.parts.results import HandPart, LineStatus, PowerPart, PowerShare
-from explorer.text.line import coverage_words
 from explorer.text.readout import banded, fineness, ideal_induced, part_change, part_titles
 from explorer.text.status import cautions, validated
 from explorer.text.why import why
 from explorer.views.page_state import PageState, Panel, PanelWork
-from explorer.views.work import doubt_work, has_power, shown_doubt
+from explorer.views.work import doubt_work, shown_doubt
 from rotor.trim.doubt import Doubt, decimals
 
 _TELLING = 0.1
@@ -31,8 +30,7 @@ def power_card(now: PageState) -> dict[str, Any]:
     same = solution.design == reference.design or not reference.converged
     band = now.answers.get(shown_doubt(now)[0].key)
     words = "" if same else why(reference, solution, now.units, band)
-    coverage = coverage_words() if has_power(solution.design) else ""
-    return {"power": replace(_numbers(state, now.units, band), why=words, coverage=coverage)}
+    return {"power": replace(_numbers(state, now.units, band), why=words)}
 
 
 def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart:

@@ -28,7 +28,6 @@
       ${status.words ? '' : 'hidden'}>${text(status.words)}</button>`);
     place.toggleAttribute('data-problem', Boolean(problem));
     document.documentElement.toggleAttribute('data-refused', Boolean(problem));
-    markSaid();
     if (focused && !focused.isConnected) {
       const again = place.querySelector(`[data-slide="${focused.dataset.slide}"]`);
       (again ?? place.querySelector('[data-slide]'))?.focus({preventScroll: true});
@@ -36,15 +35,6 @@
     clearTimeout(told);
     told = setTimeout(() => RX.say(place.textContent), problem ? 0 : LATER);  // Once no answer follows.
   });
-
-  // A number that stands here need not stand in the rail too.
-  const fields = '[data-dock-region=right] input[aria-label]:not([type=hidden])';
-  function markSaid() {
-    const said = RX.shown('line')?.named_sliders ?? [];
-    for (const field of document.querySelectorAll(fields))
-      field.toggleAttribute('data-said', said.includes((field.ariaLabel ?? '').split(' [')[0]));
-  }
-  RX.paint('worth', markSaid);  // viser may have drawn its fields anew.
 
   // It moves at once; what is said of the design before is grey until the answer comes.
   const sliding = paced((/** @type {[string, number]} */ to) => RX.send('slide', to));
