@@ -210,7 +210,10 @@ class Page:
         bridge.on("nearest", lambda _: self._nearest_trim())
         bridge.on("aim", lambda _: camera.come_back())
         bridge.on("taken", lambda _: camera.let_go())
-        bridge.on("covered", lambda cards: camera.leave_free(cards.above, cards.below))
+        bridge.on(
+            "covered",
+            lambda cards: camera.leave_free(cards.above, cards.below, cards.left, cards.right),
+        )
         bridge.on("hold", lambda held: self._grabbed(bool(held)), at_once=True)
         if (
             actuator := address.read(

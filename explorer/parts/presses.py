@@ -49,7 +49,9 @@ class MapPress(_Fields):
 class CoveredPress(_Fields):
     above: _Share
     below: _Share
-    """Shares of the canvas that cards cover."""
+    left: _Share
+    right: _Share
+    """Shares of the canvas that cards cover along its edges."""
 
 
 class IdlePress(_Fields):

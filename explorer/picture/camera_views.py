@@ -8,7 +8,6 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from explorer.model.inputs import ViewState
-from explorer.picture.airframe import size
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.picture import (
     composed_rotation,
@@ -38,11 +37,11 @@ _BEHIND, _ABOVE = math.radians(38.0), math.radians(24.0)
 """The blade is seen from beyond its tip, so far towards its trailing edge, so far above."""
 
 _STAND = math.radians(34.0), math.radians(24.0)
-"""Where the camera of "3d" stands, which is not fitted but composed: azimuth from behind the tail, and elevation."""
-_STAND_LOOKS_AT, _STAND_DISTANCE = (0.9, 0.3, -2.35), 33.5
-"""[m] from the hub."""
-_STAND_ASPECT = 1.4
-"""Width over height of the canvas below which it stands further back."""
+"""From where the camera of "3d" looks: azimuth from behind the tail, and elevation."""
+_STAND_RIM = 1.13
+"""Radius of the circle on which the words round the rim begin [R]."""
+_STAND_AIRFRAME = ((1.26, 0.0, 0.14), (1.26, 0.0, -0.30), (-0.65, 0.0, -0.45), (0.55, 0.0, -0.50))
+"""Tail rotor, tail wheel, nose and main wheels, from the hub [R]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,21 +54,33 @@ class Camera:
 
 @dataclass(frozen=True)
 class Covered:
-    """Fractions of the canvas's height that cards cover along its whole width, from above and from below."""
+    """Fractions of the canvas that cards cover along its edges: of its height above and below, of its width left and
+    right. The subject stands in the rectangle between them."""
 
     above: float = 0.16
     """The usual ones are those of a screen of 1500 × 940 pixels."""
     below: float = 0.27
+    left: float = 0.0
+    right: float = 0.0
 
     @property
     def free(self) -> float:
-        """The fraction left between them."""
+        """The fraction of the height that is left."""
         return 1.0 - self.above - self.below
 
     @property
     def lift(self) -> float:
         """How far the middle of the free part lies above the middle of the canvas, over its height."""
         return 0.5 * (self.below - self.above)
+
+    @property
+    def aside(self) -> float:
+        """How far the middle of the free part lies right of the middle of the canvas, over its width."""
+        return 0.5 * (self.left - self.right)
+
+    def free_aspect(self, aspect: float) -> float:
+        """Width over height of the free part of a canvas with this width over height."""
+        return aspect * (1.0 - self.left - self.right) / self.free
 
 
 @dataclass(frozen=True)
@@ -125,7 +136,7 @@ def fit(
         points, backward = _blade(radius, azimuth), direction(azimuth - _BEHIND, _ABOVE)
     elif view == "3d" and towards is None:
         backward = direction(_STAND[0], _STAND[1] + _FOLLOWS_TILT * (tilt - _USUAL_TILT))
-        return _standing(size(radius), aspect, backward, cover)
+        points = _aircraft(radius)
     else:
         psi = np.linspace(0.0, 2.0 * math.pi, 73)  # The rim with the words round it.
         points = 1.2 * radius * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
@@ -139,9 +150,13 @@ def fit(
         ):
             more = [[0.0, 0.0, -0.5], [1.45, 0.0, -0.2], [1.0, 0.0, 0.2]]
             points = np.concatenate((points, radius * np.array(more)))
-    return between_cards(
-        framed(points, backward if towards is None else towards, aspect / cover.free), cover
+    subject = framed(
+        points,
+        backward if towards is None else towards,
+        cover.free_aspect(aspect),
+        _MARGIN * cover.free,
     )
+    return _shifted(subject, cover, aspect)
 
 
 def seen_at(camera: Camera, points: Array, aspect: float) -> Array:
@@ -162,31 +177,29 @@ def camera_axes(camera: Camera) -> tuple[Array, Array, Array]:
     return right, np.cross(forward, right), forward
 
 
-def _standing(size: float, aspect: float, backward: Array, cover: Covered) -> Camera:
-    """The composition in the free part of the canvas, where its middle and its share of the height are as usual."""
-    higher = USUAL_COVER.free / cover.free
-    # Moving nearer enlarges the near side and the tail: go only half the way.
-    further = max(_STAND_ASPECT / max(aspect, 0.2), higher if higher > 1.0 else math.sqrt(higher))
-    look_at = size * np.array(_STAND_LOOKS_AT)
-    camera = Camera(look_at + size * _STAND_DISTANCE * further * backward, look_at)
-    return _lifted(camera, cover.lift - USUAL_COVER.lift / further)
+def _aircraft(radius: float) -> Array:
+    """The circle round the rim on which its words stand, and the ends of the airframe below it."""
+    psi = np.linspace(0.0, 2.0 * math.pi, 73)
+    rim = _STAND_RIM * np.stack((np.cos(psi), np.sin(psi), np.zeros_like(psi)), axis=1)
+    return radius * np.concatenate((rim, np.array(_STAND_AIRFRAME)))
 
 
-def _lifted(camera: Camera, lift: float) -> Camera:
-    """What the camera shows, higher on the canvas by this fraction of its height."""
-    sight = camera.position - camera.look_at
-    distance = float(np.linalg.norm(sight))
-    backward = sight / distance
-    up = np.array([0.0, 0.0, 1.0]) - backward[2] * backward
-    height = 2.0 * distance * math.tan(FIELD_OF_VIEW / 2.0)
-    lower = lift * height * up / np.linalg.norm(up)
-    return Camera(camera.position - lower, camera.look_at - lower)
+def between_cards(camera: Camera, cover: Covered, aspect: float) -> Camera:
+    """From a camera that fills a canvas of the size of the free part to one that fills that part of the whole canvas.
 
-
-def between_cards(camera: Camera, cover: Covered) -> Camera:
-    """From a camera that fills a canvas as high as the free part to one that fills that part of the whole canvas."""
+    `aspect`: width over height of the whole canvas.
+    """
     sight = (camera.position - camera.look_at) / cover.free
-    return _lifted(Camera(camera.look_at + sight, camera.look_at), cover.lift)
+    return _shifted(Camera(camera.look_at + sight, camera.look_at), cover, aspect)
+
+
+def _shifted(camera: Camera, cover: Covered, aspect: float) -> Camera:
+    """What the camera shows in the middle of the canvas, in the middle of the free part."""
+    right, down, _ = camera_axes(camera)
+    distance = float(np.linalg.norm(camera.position - camera.look_at))
+    height = 2.0 * distance * math.tan(FIELD_OF_VIEW / 2.0)
+    shift = height * (cover.lift * down - cover.aside * aspect * right)
+    return Camera(camera.position + shift, camera.look_at + shift)
 
 
 def framed(points: Array, backward: Array, aspect: float, margin: float = _MARGIN) -> Camera:

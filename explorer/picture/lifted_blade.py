@@ -301,7 +301,11 @@ def fit_lifted(radius: float, aspect: float) -> Camera:
     for aside in _ASIDE:
         # Between cards the camera stands further back, and what is far away further out.
         if (
-            seen_at(between_cards(camera, USUAL_COVER), rim, USUAL_COVER.free * aspect)[:, 0].max()
+            seen_at(
+                between_cards(camera, USUAL_COVER, USUAL_COVER.free * aspect),
+                rim,
+                USUAL_COVER.free * aspect,
+            )[:, 0].max()
             <= _MARGIN
         ):
             break

@@ -4,6 +4,7 @@ import math
 import threading
 import time
 from collections.abc import Callable
+from dataclasses import astuple
 from functools import partial
 from typing import cast
 
@@ -23,7 +24,7 @@ from explorer.picture.camera_views import (
 )
 
 _MOST_COVERED = 0.75
-"""From above and below. On a lower canvas the scene goes on behind the cards: there is no room beside them."""
+"""Along two edges that face each other. On a smaller canvas the scene goes on behind the cards."""
 _LEAST_COVER = 1e-3
 """A smaller change of what cards cover does not move the camera."""
 _LEAST_TILT = math.radians(0.2)
@@ -32,6 +33,13 @@ _LONGEST_FLIGHT_S = 1.0
 """A flight of the camera takes no longer [s]."""
 _ASPECT_CHANGE = 0.01
 """A smaller change of width over height is none: the page draws fewer pixels while something is dragged."""
+
+
+def _bounded(one: float, other: float) -> tuple[float, float]:
+    """Fractions that two facing edges are covered, smaller where nothing would be left between them."""
+    one, other = max(one, 0.0), max(other, 0.0)
+    share = min(1.0, _MOST_COVERED / max(one + other, _MOST_COVERED))
+    return share * one, share * other
 
 
 def _near(radius: float) -> float:
@@ -117,21 +125,17 @@ class FittedCamera:
             towards /= np.linalg.norm(towards)
         if self._view is not None:
             return fit(self._view, self.radius, aspect, self._azimuth, self._tilt, cover, towards)
-        subject = cast(Callable[[float], Camera], self.subject)(aspect / cover.free)
+        subject = cast(Callable[[float], Camera], self.subject)(cover.free_aspect(aspect))
         if towards is not None:
             distance = np.linalg.norm(subject.position - subject.look_at)
             subject = Camera(subject.look_at + distance * towards, subject.look_at)
-        return between_cards(subject, cover)
+        return between_cards(subject, cover, aspect)
 
-    def leave_free(self, above: float, below: float) -> None:
-        """Cards cover these fractions of the canvas from above and from below; follow, until the user takes over."""
-        above, below = max(above, 0.0), max(below, 0.0)
-        share = min(1.0, _MOST_COVERED / max(above + below, _MOST_COVERED))
-        cover = Covered(share * above, share * below)
-        if (
-            abs(cover.above - self._cover.above) + abs(cover.below - self._cover.below)
-            < _LEAST_COVER
-        ):
+    def leave_free(self, above: float, below: float, left: float = 0.0, right: float = 0.0) -> None:
+        """Cards cover these fractions of the canvas along its edges; follow, until the user takes over."""
+        cover = Covered(*_bounded(above, below), *_bounded(left, right))
+        edges = zip(astuple(cover), astuple(self._cover), strict=True)
+        if sum(abs(new - old) for new, old in edges) < _LEAST_COVER:
             return
         self._cover = cover
         if self._following and self._put is not None and not self._held:
@@ -147,7 +151,10 @@ class FittedCamera:
         """Aim at another subject: `fitted` finds the camera for a width over height without cards."""
         self._view, self.subject = None, fitted
         self._aim(
-            lambda aspect: between_cards(fitted(aspect / self._cover.free), self._cover), eased
+            lambda aspect: between_cards(
+                fitted(self._cover.free_aspect(aspect)), self._cover, aspect
+            ),
+            eased,
         )
 
     def _aim(self, fitted: Callable[[float], Camera] | None = None, eased: bool = False) -> None:

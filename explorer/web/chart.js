@@ -196,6 +196,22 @@ const Charts = (() => {
     const again = page ? '[data-page]' : focus && `[data-do][data-value="${CSS.escape(focus)}"]`;
     if (again) element.querySelector(again)?.focus({preventScroll: true});
   }
+  // A folded chart: its name, its value, and its lines without axes.
+  function spark(element, chart) {
+    const {title, value, kind} = chart;
+    element.innerHTML = `<div class="rxf-head"><b>${subscripts(title)}</b>
+        <span class="rxf-num ${kind ? `rxf-${kind}` : ''}" data-value>${text(value)}</span></div><svg></svg>`;
+    const svg = element.querySelector('svg'), {clientWidth: width, clientHeight: height} = svg;
+    if (width < 20) return;
+    const place = frame(chart, width, height, {left: 2, right: 4, top: 3, bottom: 3});
+    const drawn = chart.series.filter(one => one.kind !== 'points').map(one => DRAWN[one.kind](one, place));
+    const now = chart.speeds && chart.series.at(-1).y[0];
+    const dot = now === null || now === undefined ? ''
+      : `<circle cx="${place.X(chart.speeds.mu)}" cy="${place.Y(now)}" r="3.5" fill="var(--rx-blade)"/>`;
+    svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
+    svg.innerHTML = drawn.join('') + dot;
+    element.drawn = null;
+  }
   // A point with a press is a button, by keys as by the pointer.
   document.addEventListener('keydown', event => {
     const point = closest(event, 'svg [role=button][data-do]');
@@ -246,5 +262,5 @@ const Charts = (() => {
       paint(element);
     }
   }
-  return {bar, frame, rows, axes, inside, fill, find};
+  return {bar, frame, rows, axes, inside, fill, spark, find};
 })();

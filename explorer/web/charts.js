@@ -14,6 +14,7 @@
     const short = {title: SHORT[name] || title, y: {...y, label: y.label.replace(/^both /, '')}};
     element.toggleAttribute('data-faded', faded);
     element.dataset.name = name;
+    if (element.parentElement.clientHeight < RX.folded) return Charts.spark(element, {...chart, ...short});
     const scale = y.whole && `<button data-page="scale" aria-pressed="${whole.has(name)}"
       title="The whole axis, or the part around the least. A double click does the same">
       whole${tight ? '' : ' range'}</button>`;

@@ -1,7 +1,7 @@
 // @ts-check
 // The frame: takes parts of the page's state from Python, draws what has changed, and reports what is pressed.
 (() => {
-  const {text, clamp, write, closest, soon, drag, viewer, node, project, follow} = Common;
+  const {text, clamp, lerp, write, closest, soon, drag, viewer, node, project, follow} = Common;
   const ICONS = {
     undo: 'M4 9h10a6 6 0 0 1 0 12h-3M4 9l5-5M4 9l5 5', redo: 'M20 9H10a6 6 0 0 0 0 12h3M20 9l-5-5M20 9l-5 5',
     pin: 'M12 16v6M8 3h8l-1 7 3 5H6l3-5z', share: 'M12 15V3M7 8l5-5 5 5M5 13v7h14v-7',
@@ -186,6 +186,22 @@
       button.ariaExpanded = String(name === 'more' ? more() : open && (name === 'rail' || name === page.dataset.tab));
     }
   }
+  // What is folded in a low window, by the names of its buttons; a folded strip opens by a press anywhere on it.
+  const unfolded = new Set();
+  const foldOf = event => closest(event, 'button[data-unfold]')?.dataset.unfold
+    ?? (closest(event, 'footer.rxf-strip') && part('strip').clientHeight < FOLDED ? 'charts' : undefined);
+  const FOLDED = RX.folded = 60;  // [px] A lower strip of charts is folded.
+  document.addEventListener('click', event => {
+    const name = foldOf(event);
+    if (!name) return;
+    if (!unfolded.delete(name)) unfolded.add(name);
+    page.dataset.unfolded = [...unfolded].join(' ');
+    for (const button of root.querySelectorAll('button[data-unfold]'))
+      button.ariaExpanded = String(unfolded.has(button.dataset.unfold));
+    window.dispatchEvent(new Event('resize'));
+    RX.again('strip', 'inset', 'flight', 'earns', 'suppose');
+    tellCover();
+  });
   // Any press closes what stands below "More", after it has been heard; a notification that closes is no press.
   document.addEventListener('click', event => {
     if (closest(event, '.mantine-Notification-root')) return;
@@ -289,38 +305,87 @@
     part('prompt').hidden = !words;
     if (words) part('prompt').innerHTML = `${icon('hand')}<span data-explorer="prompt">${text(words.text)}</span>`;
   });
-  // Which fractions of the canvas cards cover along its width, so that the camera shows its subject between them. The
-  // card of power grows with its sentence: it counts with its usual height, and what stands below it as if it had that,
-  // or the scene would move with every change.
+  // Which fractions of the canvas cards cover along its edges, so that the camera shows its subject beside them.
   let telling = 0;
   function tellCover() {  // Below the veil at once, so that the camera stands when it lifts.
     telling ||= setTimeout(measureCover, page.classList.contains('rx-veiled') ? 0 : 120);
   }
-  const COVERING = ['.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-views', '.rxf-notice', '.rxs-figures'];
+  const COVERING = [
+    '.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-earns', '.rxf-open', '.rxf-views', '.rxs-figures',
+  ];
+  const BETWEEN = 4;  // [px] From a card to the subject.
+  // Width over height of what is looked at: rim and helicopter; the lifted blade with the helicopter behind it. And the
+  // rim as an ellipse in the box of the aircraft: the upper corners of the box are free.
+  const SHAPE = {aircraft: 2.15, blade: 2.5}, RIM = {centre: .32, wide: .45, high: .33};
   function measureCover() {
     telling = 0;
     const stage = root.querySelector('.rxf-stage').getBoundingClientRect();
-    const box = name => root.querySelector(name).getClientRects()[0];
     if (!stage.height) return;
     placeBelow();  // New words of the power may have made its card higher since the last frame.
-    const cards = small.matches ? ['.rxf-power', '.rxf-views', '.rxf-notice', '.rxs-figures'] : COVERING;
-    // A narrow card leaves the subject in sight; the notice counts always, or the scene would move with its words.
-    const least = name => name === '.rxf-notice' ? 0 : 0.28 * stage.width;
-    const wide = cards.filter(name => box(name)?.width > least(name)).map(box);
-    wide.push(...root.querySelector('.rxs-wipe > span').getClientRects());
-    const high = wide.filter(card => card.top <= stage.top + stage.height / 3);
-    const low = wide.filter(card => !high.includes(card));
-    // The verdict, in columns or as a sentence, hides the vibration.
-    const flown = page.hasAttribute('data-flight') && (stage.width > 900 ? 156 : 100);
-    const usual = stage.width > 470 ? flown || (state.vibration ? 126 : 96) : state.vibration ? 70 : 40;
-    const told = small.matches ? null : box('.rxf-power');
-    const shift = card => told && card.top >= told.bottom ? usual - (told.bottom - stage.top) : 0;
-    const above = Math.max(told ? usual : 0, ...high.map(card => card.bottom - stage.top + shift(card)));
-    const below = low.length ? stage.bottom - Math.min(...low.map(card => card.top)) : 0;
-    RX.send('covered', RX.covered = [above / stage.height, below / stage.height]);
+    const cards = cardsOnStage(stage);
+    const shape = page.hasAttribute('data-flight') ? SHAPE.blade : SHAPE.aircraft;
+    const {left, right, top, bottom} = largestFree(cards, stage.width, stage.height, shape);
+    const [above, below] = [top / stage.height, 1 - bottom / stage.height];
+    RX.send('covered', RX.covered = [above, below, left / stage.width, 1 - right / stage.width]);
+  }
+  // The cards as boxes of the stage [px]. The card of power grows with its sentence: it counts with its usual height,
+  // and what stands below it as if it had that, or the scene would move with every change.
+  function cardsOnStage(stage) {
+    const boxes = name => [...root.querySelectorAll(name)].flatMap(card => [...card.getClientRects()]);
+    const names = small.matches ? ['.rxf-power', '.rxf-views', '.rxf-notice', '.rxs-figures'] : COVERING;
+    const cards = names.flatMap(boxes);
+    cards.push(...boxes('.rxs-wipe > span'));
+    const [told] = small.matches ? [] : boxes('.rxf-power');
+    const usual = usualPower(stage), grown = told ? told.bottom - stage.top - usual : 0;
+    const onStage = ({left, right, top, bottom}, up = 0) => ({
+      left: left - stage.left - BETWEEN, right: right - stage.left + BETWEEN,
+      top: top - stage.top - up, bottom: bottom - stage.top - up,
+    });
+    const placed = cards.map(card => onStage(card));
+    placed.push(...(small.matches ? [] : boxes('.rxf-notice').map(notice => onStage(notice, grown))));
+    if (told) placed.push({...onStage(told), top: 0, bottom: usual});
+    return placed;
+  }
+  // How high the card of power usually reaches [px]: the verdict, in columns or as a sentence, hides the vibration.
+  function usualPower({width, height}) {
+    if (page.hasAttribute('data-flight') && (height <= 540 || width <= 860)) return width > 700 ? 50 : 84;
+    if (page.hasAttribute('data-flight')) return width > 900 && height > 760 ? 156 : 100;
+    if (small.matches) return state.vibration ? 70 : 40;
+    const why = width > 860 || height > 560 ? 54 : 0;
+    return (state.vibration ? 98 : 66) + why;
+  }
+  // Whether a card lies on the subject in this box.
+  function meets(card, box) {
+    const apart = card.left >= box.right - 1 || card.right <= box.left + 1
+      || card.top >= box.bottom - 1 || card.bottom <= box.top + 1;
+    if (apart) return false;
+    if (page.hasAttribute('data-flight')) return true;
+    const width = box.right - box.left, height = box.bottom - box.top;
+    const x = (box.left + box.right) / 2, y = box.top + RIM.centre * height;
+    if (card.bottom > y) return true;
+    const across = Math.max(card.left - x, x - card.right, 0) / (RIM.wide * width);
+    return Math.hypot(across, (y - card.bottom) / (RIM.high * height)) < 1;
+  }
+  // The free rectangle in which a subject of this width over height is largest; all of the stage where none is free.
+  function largestFree(cards, width, height, shape) {
+    const within = (value, most) => value > 0 && value < most;
+    const lefts = [0, ...cards.map(card => card.right).filter(x => within(x, width))];
+    const rights = [width, ...cards.map(card => card.left).filter(x => within(x, width))];
+    const tops = [0, ...cards.map(card => card.bottom).filter(y => within(y, height))];
+    const bottoms = [height, ...cards.map(card => card.top).filter(y => within(y, height))];
+    let best = {left: 0, right: width, top: 0, bottom: height}, most = 0;
+    for (const left of lefts) for (const right of rights) for (const top of tops) for (const bottom of bottoms) {
+      const size = Math.min(right - left, shape * (bottom - top));
+      if (size <= most + 1) continue;
+      const free = [.5, 0, 1].map(share => lerp(left, right - size, share))
+        .map(from => ({left: from, right: from + size, top, bottom}))
+        .find(box => !cards.some(card => meets(card, box)));
+      if (free) [best, most] = [free, size];
+    }
+    return best;
   }
   RX.paint('vibration', tellCover);
-  for (const name of COVERING) new ResizeObserver(tellCover).observe(root.querySelector(name));
+  for (const name of [...COVERING, '.rxf-notice']) new ResizeObserver(tellCover).observe(root.querySelector(name));
   // The card of power grows with its words: what stands below it follows.
   const power = root.querySelector('.rxf-power');
   function placeBelow() {

@@ -14,6 +14,8 @@ declare const RX: {
   part(name: string): any;
   small: MediaQueryList;
   covered: RxPresses['covered'];
+  // Height [px] below which the strip of charts is folded.
+  folded: number;
   showTab(name: string, wanted: boolean): void;
   openRail(wanted: boolean): void;
   along(share: number): string;

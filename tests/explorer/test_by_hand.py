@@ -27,7 +27,7 @@ SENT: dict[str, Any] = {
     "difference": "on",
     "more": "on", "ride": [0.8, 90.0], "azimuth": 30.0, "fly": 1.5, "suppose": "on", "balance": "here",
     "against": "best-fixed", "state": "stopped", "section": [0.8, 90.0], "map_at": [0.2, 0.8], "pull": 0.5,
-    "covered": [0.1, 0.2], "view": "disk", "colours": "Rescale", "lecture": "next",
+    "covered": [0.1, 0.2, 0.3, 0.0], "view": "disk", "colours": "Rescale", "lecture": "next",
     "knot": ["2", [None, -5.0]], "dial": [[3, 1.0, 60.0]],
     "kind": "AFC", "scene": "lost", "seen": True,
 }  # fmt: skip

@@ -223,14 +223,15 @@ class TestCamera:
         assert right[1] > 0.8  # The advancing side is at the right.
 
     @pytest.mark.parametrize("aspect", ASPECTS)
-    @pytest.mark.parametrize("view", ["top", "side", "blade"])
+    @pytest.mark.parametrize("view", ["3d", "top", "side", "blade"])
     def test_a_framed_view_lies_between_the_cards(self, view: View, aspect: float):
-        cover = Covered(0.2, 0.3)
+        cover = Covered(0.2, 0.3, left=0.25, right=0.1)
         points = (
             self.RIM if view != "blade" else 8.18 * np.array([[0.05, 0.0, 0.0], [1.0, 0.0, 0.03]])
         )
         x, y, _ = on_canvas(fit(view, 8.18, aspect, cover=cover), aspect, points)
-        assert np.abs(x).max() < 1.0
+        assert x.min() > -1.0 + 2.0 * cover.left
+        assert x.max() < 1.0 - 2.0 * cover.right
         assert y.max() < 1.0 - 2.0 * cover.above
         assert y.min() > -1.0 + 2.0 * cover.below
 
@@ -251,10 +252,12 @@ class TestCamera:
         assert np.ptp(y) < 0.25 * np.ptp(x) * aspect
 
     @pytest.mark.parametrize("aspect", [0.6, 0.9, 1.2, 1.6])
-    @pytest.mark.parametrize("cover", [UNCOVERED, Covered(0.2, 0.1), USUAL_COVER])
+    @pytest.mark.parametrize(
+        "cover", [UNCOVERED, Covered(0.2, 0.1), Covered(0.1, 0.2, left=0.3), USUAL_COVER]
+    )
     def test_behind_the_lifted_blade_the_helicopter_is_whole(self, cover: Covered, aspect: float):
         """A narrow canvas cut it at the cabin."""
-        camera = between_cards(fit_lifted(8.18, aspect / cover.free), cover)
+        camera = between_cards(fit_lifted(8.18, cover.free_aspect(aspect)), cover, aspect)
         tail, nose = 8.18 * np.array([[1.3, 0.0, 0.45], [-1.0, 0.0, 0.15]])
         x, y, _ = on_canvas(camera, aspect, np.vstack((self.RIM, tail, nose)))
         assert np.abs((x, y)).max() < 1.0

@@ -34,7 +34,7 @@ GOOD: dict[str, list[Any]] = {
     "azimuth": [65, 0.5], "fly": [1.25], "slide": [["mass_t", 8.5]], "hold": [True], "stop": [3, "3"], "guess": ["0"],
     "drawer": ["", "share"],
     "knot": [["1", "start"], ["1", [None, 3.5]], ["0", [0.4, -2.0]], ["2", "end"], ["2", "undo"]],
-    "idle": [[7, False]], "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]], "covered": [[0.1, 0.2]],
+    "idle": [[7, False]], "dial": ["start", [[3, 1.5, 270], [2, 0.4, 60]]], "covered": [[0.1, 0.2, 0.3, 0.0]],
     "undo": [None, 5], "view": ["disk"], "suppose": ["on", "off", [0.0, 0.001], [3.2, 9.1]],
 }  # fmt: skip
 HOSTILE: list[Any] = [
@@ -92,8 +92,8 @@ def test_no_number_that_is_not_finite_passes(name: str):
             press("view", "nowhere"),
             "Invalid enum value 'nowhere', expected one of actuator, 3d, disk, blade, top, side",
         ),
-        (press("covered", [0.1]), "Expected `array` of at least length 2"),
-        (press("covered", [0.1, 0.2, 0.3]), "Expected `array` of at most length 2"),
+        (press("covered", [0.1]), "Expected `array` of at least length 4"),
+        (press("covered", [0.1, 0.2, 0.3, 0.0, 0.0]), "Expected `array` of at most length 4"),
         (press("nowhere", 1), "no such press"),
         (press("field", "x" * 200), "length <= 100"),
         (press("azimuth", "x" * 400), "at most 300 characters"),
