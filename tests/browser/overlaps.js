@@ -1,5 +1,5 @@
 // What covers what: pairs of cards, bars and panels whose boxes meet, what hangs out of the window, and controls that
-// another element hides or the edge of a card cuts. And how many numbers and controls are seen.
+// another element hides or the edge of a card cuts.
 () => {
   const seen = element => element.checkVisibility({opacityProperty: true, visibilityProperty: true}) && !element.closest('.mantine-Notification-root, .rxf-said');
   const name = element => element.dataset?.explorer || element.dataset?.dockRegion || element.dataset?.region || element.dataset?.part || element.dataset?.value || element.dataset?.do || element.ariaLabel || String(element.getAttribute('class')).split(' ').at(-1);
@@ -51,7 +51,6 @@
   };
   const nameless = all('.rxf-bar button').filter(({element}) => !element.innerText.trim()).map(({element}) => name(element));
   const words = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT), cut = [];
-  let numbers = 0;
   while (words.nextNode()) {
     const node = words.currentNode, element = node.parentElement;
     if (!node.textContent.trim() || element.closest('script, style, noscript, option, title, .mantine-Notification-root') || !seen(element)) continue;
@@ -59,12 +58,10 @@
     range.selectNodeContents(node);
     const box = range.getBoundingClientRect();
     if (!box.width || !within(box) || scrolled({element, box})) continue;
-    numbers += (node.textContent.match(/\d+(?:[.,\u00a0 ]\d+)*/g) ?? []).length;
     for (let above = element; above && above !== document.body; above = above.parentElement) {
       const edge = above.getBoundingClientRect();
       if (above.matches('.rxf-card, .rxf-menu') && box.right > edge.right + 2) cut.push(`${node.textContent.trim().slice(0, 30)} in ${name(above)}`);
     }
   }
-  for (const {element} of shown) if (element.matches('input[inputmode]:not([type=hidden])') && /\d/.test(element.value)) numbers += 1;
-  return {hit, outside, hidden, nameless, cut, narrow, free, numbers, controls: shown.length, disk: disk && Math.round(disk.width)};
+  return {hit, outside, hidden, nameless, cut, narrow, free, disk: disk && Math.round(disk.width)};
 }
