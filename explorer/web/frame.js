@@ -348,7 +348,7 @@
   }
   // How high the card of power usually reaches [px]: the verdict, in columns or as a sentence, hides the vibration.
   function usualPower({width, height}) {
-    if (page.hasAttribute('data-flight') && (height <= 540 || width <= 860)) return width > 640 ? 50 : 84;
+    if (page.hasAttribute('data-flight') && (height <= 540 || width <= 860)) return width > 640 ? 42 : 78;
     if (page.hasAttribute('data-flight')) return width > 900 && height > 760 ? 156 : 100;
     if (small.matches) return state.vibration ? 70 : 40;
     const why = width > 860 || height > 560 ? 54 : 0;
