@@ -313,7 +313,7 @@
   const COVERING = [
     '.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-earns', '.rxf-open', '.rxf-views', '.rxs-figures',
   ];
-  const BETWEEN = 4;  // [px] From a card to the subject.
+  const BETWEEN = 4, EDGE = 18, LOW = 400;  // [px] From a card and from the edge to the subject; height of a low stage.
   // Width over height of what is looked at: rim and helicopter; the lifted blade with the helicopter behind it. And the
   // rim as an ellipse in the box of the aircraft: the upper corners of the box are free.
   const SHAPE = {aircraft: 2.15, blade: 2.5}, RIM = {centre: .32, wide: .45, high: .33};
@@ -369,8 +369,10 @@
   // The free rectangle in which a subject of this width over height is largest; all of the stage where none is free.
   function largestFree(cards, width, height, shape) {
     const within = (value, most) => value > 0 && value < most;
-    const lefts = [0, ...cards.map(card => card.right).filter(x => within(x, width))];
-    const rights = [width, ...cards.map(card => card.left).filter(x => within(x, width))];
+    // Words round the rim reach beyond the subject; where the stage is low the rotor has that room too.
+    const edge = height > LOW ? EDGE : 0;
+    const lefts = [edge, ...cards.map(card => card.right).filter(x => within(x, width))];
+    const rights = [width - edge, ...cards.map(card => card.left).filter(x => within(x, width))];
     const tops = [0, ...cards.map(card => card.bottom).filter(y => within(y, height))];
     const bottoms = [height, ...cards.map(card => card.top).filter(y => within(y, height))];
     let best = {left: 0, right: width, top: 0, bottom: height}, most = 0;
