@@ -348,7 +348,7 @@
   }
   // How high the card of power usually reaches [px]: the verdict, in columns or as a sentence, hides the vibration.
   function usualPower({width, height}) {
-    if (page.hasAttribute('data-flight') && (height <= 540 || width <= 860)) return width > 640 ? 42 : 78;
+    if (page.hasAttribute('data-flight') && (height <= 570 || width <= 860)) return width > 640 ? 42 : 78;
     if (page.hasAttribute('data-flight')) return width > 900 && height > 760 ? 156 : 100;
     if (small.matches) return state.vibration ? 70 : 40;
     const why = width > 860 || height > 560 ? 54 : 0;
@@ -370,7 +370,7 @@
   function largestFree(cards, width, height, shape) {
     const within = (value, most) => value > 0 && value < most;
     // Words round the rim reach beyond the subject; where the stage is low the rotor has that room too.
-    const edge = height > LOW ? EDGE : 0;
+    const edge = height > LOW || small.matches ? EDGE : 0;
     const lefts = [edge, ...cards.map(card => card.right).filter(x => within(x, width))];
     const rights = [width - edge, ...cards.map(card => card.left).filter(x => within(x, width))];
     const tops = [0, ...cards.map(card => card.bottom).filter(y => within(y, height))];
