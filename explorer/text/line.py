@@ -160,7 +160,7 @@ def power_pieces(
         within, drag = "", number(solution.lift_and_drag[1])
         if band is not None and band.power:
             within = f" ± {number(ratio * band.band / band.power, 1)}"
-        title = band.sentence if band else ""
+        title = _band_sentence(band, units)
         verb, shown = (
             LinePiece(" has lift-to-drag ", "verb"),
             LinePiece(number(ratio, 1), "total-power", title=title),
@@ -173,7 +173,7 @@ def power_pieces(
         ]
     total = number(abs(unit.of(power.total)), fineness(power, units))
     driven = power.total < 0.0 and any(digit in total for digit in "123456789")
-    shown = LinePiece(total, "total-power", title="" if band is None else band.sentence)
+    shown = LinePiece(total, "total-power", title=_band_sentence(band, units))
     pieces = [LinePiece(" takes " if driven else " needs ", "verb"), shown]
     if band is not None and band.of == "Power":
         within = unit.of(band.band)
@@ -187,6 +187,14 @@ def power_pieces(
             )
         )
     return [*pieces, LinePiece(f" {unit.symbol}{' from the air' if driven else ''}", "verb")]
+
+
+def _band_sentence(band: Doubt | None, units: Units) -> str:
+    """The power with its band and what the design saves; empty without a band."""
+    if band is None:
+        return ""
+    unit = units.power[0]
+    return band.in_words("It", (unit.symbol, unit.size))
 
 
 def coverage_words() -> str:

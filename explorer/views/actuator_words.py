@@ -7,7 +7,7 @@ import numpy as np
 
 from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
-from explorer.model.units import number
+from explorer.model.units import SI, Units, number
 from explorer.picture.lifted_picture import drive_colour
 from explorer.text.readout import limit_words, mass_words
 from rotor.actuator.kind import Actuator, InstalledActuator, Limit
@@ -63,7 +63,7 @@ def now_panel(
     )
 
 
-def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
+def fit_panel(installed: InstalledActuator, verdict: Verdict | None, units: Units = SI) -> Markup:
     """What the actuator is on this blade: known at once, but for what the verdict needs."""
     rest = math.degrees(float(np.abs(installed.rest_shapes[:, -1]).sum()))
     facts = [
@@ -76,7 +76,7 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
             if verdict is None
             else [f"twist required {number(math.degrees(verdict.required), 2)}°"]
         ),
-        *([] if verdict is None else [f"slewing power {number(verdict.drive.slew_power)} W"]),
+        *([] if verdict is None else [f"slewing power {units.watts(verdict.drive.slew_power, 2)}"]),
     ]
     return tag("div.rx.rx-dim.rx-small", f"{'; '.join(facts)}.", data_explorer="actuator-numbers")
 

@@ -46,7 +46,8 @@ def trust(now: PageState) -> dict[str, Any]:
         models = now.answers.get(_model_questions(now)[0].calls[0]) if current else None
         rows = doubt_rows(found, now.units, models if isinstance(models, tuple) else ())
         rows = rows if current else readout.faded(rows)
-    return {"trust.status": status_panel(state.solution, pinned=state.pinned), "trust.doubts": rows}
+    status = status_panel(state.solution, pinned=state.pinned, units=now.units)
+    return {"trust.status": status, "trust.doubts": rows}
 
 
 def _model_questions(now: PageState) -> tuple[Questions, ...]:

@@ -140,9 +140,12 @@ def _change(now: PageState) -> list[LinePiece]:
     band, known = now.latest(shown_doubt(now)[0])
     within = None if band is None else band.change_band
     change = solution.power.total - reference.power.total
-    return change_pieces(
-        change, within, than_words(solution.design, reference.design, pinned), now.units, known
-    )
+    than = than_words(solution.design, reference.design, pinned)
+    # Twist that follows the azimuth takes an actuator.
+    carried = solution.design.rotor.blade.carried is not None
+    built = carried or solution.design.pitch_waves in ((), reference.design.pitch_waves)
+    note = "" if built else " (no actuator on board makes this)"
+    return change_pieces(change, within, than, now.units, known, note, built=built)
 
 
 def line_text(now: PageState) -> str:

@@ -180,11 +180,11 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
     found = dict[str, str]()
     if 0.0 < mu < LOW_SPEED and trim.fixed_inflow:
         found["low-speed-inflow"] = (
-            f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
+            f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; the rotor flies at {mu:.3f}."
         )
     if 0.0 < mu < LOWEST_SPEED and not trim.fixed_inflow:
         found["low-speed-inflow"] = (
-            f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}."
+            f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; the rotor flies at {mu:.3f}."
         )
     if hover_share(design) and trim.problem.air.joined is None:
         found["low-speed-not-matched"] = (

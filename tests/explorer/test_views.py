@@ -1,5 +1,6 @@
 """Panels as functions of what is known now, without a page."""
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -27,6 +28,7 @@ from explorer.views.waterfall import WATERFALL
 from explorer.views.worth import slopes_work, twist_slopes, worth
 from explorer.workers.call import at_once
 from rotor import doubt
+from rotor.design import Harmonic
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -321,3 +323,27 @@ def test_more_than_the_engines_give_is_said_in_the_line():
     assert fast.status.words == f"engines give only {number(2327.0)} kW"
     assert "The rotors need" in fast.status.title
     assert "engines" not in line(flown(replace(OPENING, advance_ratio=0.3))).status.words
+
+
+def test_less_power_by_a_twist_that_nothing_on_board_makes_is_not_green():
+    """And the line says so. The same waves in A are no part of the change."""
+    active = replace(
+        OPENING,
+        advance_ratio=0.3,
+        twist_per_rev=(Harmonic(2, math.radians(1.0), math.radians(40.0)),),
+    )
+    saving = min(
+        (
+            replace(active, twist_per_rev=(replace(active.twist_per_rev[0], phase=phase),))
+            for phase in (0.0, math.pi)
+        ),
+        key=lambda inputs: solved(inputs).power.total,
+    )
+    shown = pieces(soon(now_at(saving)))
+    assert shown["more"].text == " less"
+    assert shown["moved"].kind == ""
+    assert shown["against"].text == " than as built (no actuator on board makes this)"
+    built = replace(OPENING, advance_ratio=0.3, built_outer=-2.0)
+    assert "actuator" not in line_text(soon(now_at(built)))
+    more = replace(saving, built_outer=3.0)
+    assert "actuator" not in line_text(soon(now_at(more, saving)))
