@@ -39,6 +39,7 @@ _COMPARISON = "explorer.export.tables.comparison"
 _PROBE_PANEL = "explorer.charts.probe_drawing.probe_panel"
 _CARD = "explorer.views.assessed.card"
 _CAUSES = "explorer.export.tables.doubts"
+_FLIGHT_BAR = "explorer.views.flight.view"
 _RAIL = "explorer.views.actuator_words.fit_panel"
 _ACTUATOR = "rotor.command.actuator.report"
 _SECTION = "explorer.export.figures.actuator_section"
@@ -365,7 +366,7 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
             Place("line", "explorer.text.line.power_pieces", _line("total-power")),
             Place("power and trim", _POWER_PANEL, _text("details.power", "^ ?# kW")),
             Place("trust", _DOUBT_SENTENCE, _text("trust.doubts", "Power # ±")),
-            Place("flight bar", "explorer.views.flight.view", _frame(": # kW", "flight", "words")),
+            Place("flight bar", _FLIGHT_BAR, _frame(": # kW", "flight", "words")),
             Place("report, line", "explorer.text.line.sentence", _report(" needs # ±")),
             Place("report, card", "explorer.export.report.report_html", _report(" Now # kW")),
             Place("report, table", _COMPARISON, _report("Total power # kW")),
@@ -471,10 +472,10 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
             Place("line, status", "explorer.views.power.status", _status("# % of disk")),
             Place("disk", "explorer.picture.plan.plan", _region("stall", "# % area")),
             Place("key of the disk", "explorer.widgets.display.Display", _frame("#", "field", "shares", "stall")),
-            Place("flight bar", "explorer.views.flight.view", _frame("disk # %", "flight", "words")),
+            Place("flight bar", _FLIGHT_BAR, _frame(f"# % (?:of the disk )?{_REGION}", "flight", "words")),
             Place("report, table", _COMPARISON, _report(f"{_REGION} area # %")),
             Place("report, trim", "explorer.export.tables.trim", _report(f"{_REGION} # % of the disk, ")),
-            Place("caveat", "rotor.trim.validity.caveats", _report("# % of the disk is ")),
+            Place("caveat", "rotor.trim.validity.caveats", _report("# % of the disk(?: is|;) ")),
             Place("solve", _SOLVE, _solved(f"{_REGION} # % with")),
             Place("solve --json", _SOLUTION_RECORD, _record("stalled_percent", "area")),
         ),
