@@ -202,8 +202,7 @@ def _flown(solution: Solution) -> ValidationRecord | None:
             return ValidationRecord(
                 "measured in flight", f"Power was measured in {count}: {report}.{blade}{airloads}"
             )
-        percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
-        words = f"measured: {number(percent, 1, sign=True)} % ({here.case})"
+        words = f"measured: {number(100.0 * here.error(solution), 1, sign=True)} % ({here.case})"
         kilowatts = f"{number(solution.power.main_rotor / 1e3, 1)} kW, measured {number(here.power / 1e3, 1)} kW"
         return ValidationRecord(words, f"Main rotor: computed {kilowatts} ({report}).{airloads}")
     if cases and design.condition.stand is not None and not design.hovering:

@@ -18,6 +18,7 @@ from rotor.design.aircraft import FIXED_SHARE, Stand, in_words
 from rotor.design.design import Design
 from rotor.support.arrays import Array
 from rotor.support.units import power_text
+from rotor.trim.control_stops import rigged_collective
 from rotor.trim.low_speed import hover_share
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.power import HubMoment
@@ -321,7 +322,8 @@ def _beyond_stops(trim: CaveatInputs) -> list[str]:
         "lateral": stops.lateral,
         "longitudinal": stops.longitudinal,
     }
-    for name, place in stops.places(state.collective, state.cyclic_1c, state.cyclic_1s).items():
+    collective = rigged_collective(trim.design, state)
+    for name, place in stops.places(collective, state.cyclic_1c, state.cyclic_1s).items():
         if not 0.0 <= place <= 1.0:
             low, high = (math.degrees(end) for end in ranges[name])
             what = name if name == "collective" else f"{name} cyclic"

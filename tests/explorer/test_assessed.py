@@ -18,7 +18,7 @@ from explorer.export.figures import actuator_section
 from explorer.export.provenance import provenance_lines
 from explorer.export.report import report_html
 from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, ActuatorState
-from explorer.model.inputs import Inputs, ViewState
+from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import SI, adding
 from explorer.page import PANELS
@@ -34,13 +34,13 @@ from explorer.views.actuator_words import limits_panel
 from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
-from explorer.views.line import LINE, line_text, works
+from explorer.views.line import LINE, line_text
 from explorer.views.page_state import OpenPanels, PageState, SetHand
 from explorer.views.pay import PAY
 from explorer.views.power import POWER
 from explorer.views.vibration import VIBRATION
 from explorer.views.worth import WORTH
-from explorer.workers.call import Call, at_once
+from explorer.workers.call import Call
 from rotor import Design, Solution, doubt
 from rotor.actuator import (
     FlightLeg,
@@ -64,46 +64,16 @@ from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.doubt import ESTIMATED, RoundedPair, rounded_pair, sureness
 from rotor.trim.solve import solve
-from tests.actuate import actuate, asked, done, solved, told, worked
+from tests.actuate import INPUTS, actuate, answered, done, run, worked
 
-INPUTS = Inputs(law="builtin", advance_ratio=0.2, inflow="drees")
 DRIVEN = (77.0,) * MOST_SEGMENTS
 DESIGN = make_design(mu=0.2, inflow="drees")
 NUMBER = r"[+−]?\d+(?:\.\d+)?"
 
 
 @cache
-def run(call: Call) -> Any:
-    return call.run()
-
-
-@cache
 def trimmed(design: Design) -> Solution:
     return solve(design).require()
-
-
-def answered(
-    against: Against,
-    drives: tuple[float, ...],
-    state: ActuatorState = "set",
-    id: str = "MFC_P1",
-    inputs: Inputs = INPUTS,
-) -> PageState:
-    """The page in a state of the actuator once all that the value waits for is known."""
-    now = actuate(inputs, actuator=ActuatorInputs(id, against=against, drives=drives))
-    for name in ("lean_verdict", "flight_of"):
-        now = told(ACTUATOR, now, **{name: run(asked(ACTUATOR, now)[name])})
-    now = solved(done(now, FLIGHT.presses["state"](now, state)))
-    now = told(ACTUATOR_CARD, now, other_stroke=run(asked(ACTUATOR_CARD, now)["other_stroke"]))
-    effects = {call: run(call) for call in DIAL.asks(now)[0].calls}
-    now = replace(now, answers={**now.answers, **effects})
-    now = worked(ACTUATOR_CARD, worked(DIAL, now))
-    doubts = {task.key: at_once(task.run(lambda: None)) for task in works(now)}
-    now = replace(now, answers={**now.answers, **doubts})
-    flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)
-    return replace(
-        now, answers=told(FLIGHT, flown, powers=run(asked(FLIGHT, flown)["powers"])).answers
-    )
 
 
 def card(now: PageState) -> AssessedPart:
