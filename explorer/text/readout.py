@@ -160,7 +160,12 @@ def fineness(power: PowerBudget, units: Units = SI) -> int:
 
 def total_words(total: float, units: Units = SI) -> str:
     """Total power [W] with the decimals of the line: that of an optimum has none that its band does not allow."""
-    return units.watts(total, _fineness(total, units))
+    return f"{total_size(total, units)} {units.power[0].symbol}"
+
+
+def total_size(total: float, units: Units = SI) -> str:
+    """The same without its unit."""
+    return number(units.power[0].of(total), _fineness(total, units))
 
 
 def _fineness(total: float, units: Units) -> int:

@@ -193,7 +193,9 @@ def test_axes_hold_while_the_data_fit():
 
 def test_the_change_from_the_reference_and_why():
     assert power_card(now_at(CHANGED))["power"].why.startswith("Lift moved")
-    assert pieces(now_at(CHANGED))["against"].text == " than as built"
+    built = f"{1e-3 * solved(OPENING).power.total:.0f}"
+    assert pieces(now_at(CHANGED))["against"].text == f" than as built ({built})"
+    assert pieces(now_at(CHANGED, OPENING))["against"].text == f" than A ({built})"
     assert power_card(now_at(OPENING))["power"].why == ""
     assert not pieces(now_at(OPENING)).keys() & {"moved", "against"}
 
