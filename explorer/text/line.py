@@ -45,7 +45,9 @@ _STANDS = {
     "controls": "with given controls",
 }
 WIDE = "wide"
-"""The part of words that a telephone can do without."""
+"""The part of names that a telephone can do without."""
+BESIDE = "beside"
+"""The part of the answer that it can do without."""
 MODELS = "models"
 """The part of words that say how the answer is computed."""
 _COUNTED = ("no", "one", "two", "three", "four", "five")
@@ -352,7 +354,7 @@ def power_pieces(
             verb,
             shown,
             LinePiece(within, "within", stale=not known),
-            LinePiece(f", drag {drag} N", WIDE),
+            LinePiece(f", drag {drag} N", BESIDE),
         ]
     total = number(abs(unit.of(power.total)), fineness(power, units))
     driven = power.total < 0.0 and any(digit in total for digit in "123456789")
@@ -409,7 +411,7 @@ def change_pieces(
         LinePiece(": ", "sign"),
         LinePiece(size, "moved", kind),
         LinePiece(beside, "sure-band", kind, not known),
-        LinePiece(f" {units.power[0].symbol}", WIDE, kind),
+        LinePiece(f" {units.power[0].symbol}", BESIDE, kind),
         LinePiece(" more" if change > 0.0 else " less", "more", kind),
         LinePiece(f" than {than}{note}", "against"),
         *([LinePiece(f", {word}", "sure", "", not known, cap.strip(", "))] if word else []),

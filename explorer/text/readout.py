@@ -314,9 +314,14 @@ def dash(colour: str, dashed: bool = False) -> Markup:
     return tag("span.rx-dash", style=f"background:{colour}")
 
 
-def faded(html: Markup) -> Markup:
-    """Markup that is out of date, greyed."""
-    return tag("div.rx-faded", html)
+def outdated(html: Markup) -> Markup:
+    """Markup of other inputs than those that are set, with the mark that `outdate` of `common.js` gives."""
+    return tag("div", html, data_stale=True, role="group", aria_description="out of date")
+
+
+def answers(html: Markup) -> Markup:
+    """Markup that is marked as a whole from the moment an input changes, until it is sent again."""
+    return tag("div", html, data_answers=True)
 
 
 def compared_power_panel(
