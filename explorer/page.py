@@ -260,6 +260,8 @@ class Page:
         with context.whole:
             hand = self.actuator.hand()
             inputs, view = self.history.read(tracker.pause), context.display.view
+        if self.latest.state is not None:
+            self._mark_stale()
         return replace(
             self.latest, inputs=inputs, view=view, hand=hand, sliders=None, preview=None, problem=""
         )
@@ -380,7 +382,9 @@ class Page:
             case "results":
                 # Each message by itself would wake the thread that sends.
                 with context.client.atomic():
-                    self._mark_stale()
+                    # While a hand moves on, each answer ends the mark and the next update begins it: in a drag the page
+                    # is faint only where answers are slow.
+                    context.bridge.set(stale=False)
                     self.optimise.hand.show(state)
                     self._refresh()
                     self._curve.show(state)

@@ -209,8 +209,9 @@
     const focused = earns.contains(document.activeElement) && document.activeElement?.matches('[data-supposed]');
     earns.innerHTML = `<div class="rxf-head"><b>What would pay</b>
         <button class="rxf-push" data-do="suppose" data-value="off">Extra power</button></div>
-      <div class="rxf-num rxf-supposed" data-kind="${kind}" data-explorer="supposed">${text(words)}</div><svg></svg>
-      <div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(note)}"
+      <div class="rxf-num rxf-supposed" data-answers data-kind="${kind}" data-explorer="supposed">${text(words)}</div>
+      <svg data-answers></svg>
+      <div class="rxf-earns-pays rxf-dim" data-answers data-explorer="pays" title="${text(note)}"
         ${note ? '' : 'hidden'}>${text(note)}</div>`;
     const {svg, width, height} = room();
     if (!chart || !svg || !width) return;
