@@ -5,6 +5,8 @@ import re
 import pytest
 from watched import LARGE, MEDIUM, Visit, Watched
 
+from explorer.app import App
+
 WINDOWS = {"desk": [LARGE, MEDIUM], "sheet": [(390, 844), (844, 390), (812, 734)]}
 """Sizes of one page; its numbers are dragged at the first."""
 FITS = """name => {
@@ -133,6 +135,29 @@ def test_where_the_rail_still_stands_the_longest_sentence_has_two_rows(visit: Vi
     )
     assert len(said) > 200
     fits(watched, [(861, 600)], "mass_t")
+
+
+FAINT = """() => [...document.querySelectorAll('[data-answers]')].filter(e => e.checkVisibility()).map(e =>
+    [e.dataset.explorer ?? e.dataset.part ?? '', Number(getComputedStyle(e).opacity)])"""
+"""Of each answer on the page its name and how faint it is."""
+
+
+def test_from_another_actuator_to_its_answer_all_numbers_have_one_mark(visit: Visit, app: App):
+    """Line, card, tip twist, balance and rail alike, while what they name stays clear."""
+    watched = visit(size=MEDIUM)
+    page = watched.page
+    watched.mode("actuate")
+    watched.answered()
+    with app.sessions[-1].page.context.whole:  # No update reads what is set.
+        page.evaluate("() => RX.send('kind', 'AFC')")
+        page.wait_for_selector("html[data-stale]", state="attached")
+        page.wait_for_function(f"() => ({FAINT})().every(([name, opacity]) => opacity === .45)")
+        marked = {name for name, _ in page.evaluate(FAINT)}
+        assert marked >= {"total-power", "moved", "verdict", "tip-twist", "labels"}
+        assert "with MFC P1 at" in watched.text("line")
+    watched.reads("line", "with AFC at .* needs ")
+    page.wait_for_selector("html:not([data-stale])", state="attached")
+    page.wait_for_function(f"() => ({FAINT})().every(([name, opacity]) => opacity === 1)")
 
 
 def test_touch_drags_and_a_refused_trim_is_said(visit: Visit):
