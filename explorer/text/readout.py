@@ -160,7 +160,12 @@ def fineness(power: PowerBudget, units: Units = SI) -> int:
 
 def total_words(total: float, units: Units = SI) -> str:
     """Total power [W] with the decimals of the line: that of an optimum has none that its band does not allow."""
-    return units.watts(total, _fineness(total, units))
+    return f"{total_size(total, units)} {units.power[0].symbol}"
+
+
+def total_size(total: float, units: Units = SI) -> str:
+    """The same without its unit."""
+    return number(units.power[0].of(total), _fineness(total, units))
 
 
 def _fineness(total: float, units: Units) -> int:
@@ -309,9 +314,14 @@ def dash(colour: str, dashed: bool = False) -> Markup:
     return tag("span.rx-dash", style=f"background:{colour}")
 
 
-def faded(html: Markup) -> Markup:
-    """Markup that is out of date, greyed."""
-    return tag("div.rx-faded", html)
+def outdated(html: Markup) -> Markup:
+    """Markup of other inputs than those that are set, with the mark that `outdate` of `common.js` gives."""
+    return tag("div", html, data_stale=True, role="group", aria_description="out of date")
+
+
+def answers(html: Markup) -> Markup:
+    """Markup that is marked as a whole from the moment an input changes, until it is sent again."""
+    return tag("div", html, data_answers=True)
 
 
 def compared_power_panel(

@@ -58,7 +58,7 @@ def now_panel(
     twist = tag("b", f"{number(tip, 2, sign=True)}°", data_explorer="actuator-twist")
     return tag(
         "div.rx",
-        tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP),
+        tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP, data_answers=True),
         data_explorer="actuator-now",
     )
 
@@ -78,7 +78,8 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None, units: Unit
         ),
         *([] if verdict is None else [f"slewing power {units.watts(verdict.drive.slew_power, 2)}"]),
     ]
-    return tag("div.rx.rx-dim.rx-small", f"{'; '.join(facts)}.", data_explorer="actuator-numbers")
+    words = f"{'; '.join(facts)}."
+    return tag("div.rx.rx-dim.rx-small", words, data_explorer="actuator-numbers", data_answers=True)
 
 
 def problem_panel(outcome: Outcome | None) -> Markup:
@@ -108,7 +109,8 @@ def limits_panel(verdict: Verdict | None) -> Markup:
         tag("div.rx-care", tag("span", "▲"), tag("span", caveat)) for caveat in verdict.caveats
     ]
     beyond = (more, *map(_limit, asked)) if asked else ()
-    return tag("div.rx.rxa-limits", map(_limit, own), beyond, good, cares, data_explorer="limits")
+    rows = map(_limit, own), beyond, good, cares
+    return tag("div.rx.rxa-limits", *rows, data_explorer="limits", data_answers=True)
 
 
 def _limit(limit: Limit) -> Markup:

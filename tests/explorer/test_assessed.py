@@ -155,6 +155,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("power", r": # kW, [0-9.]+ % of the disk", flight["flight"].words)
     read("stalled", "# % of the disk separated", flight["flight"].words)
     read("power here", "kW.*: # ± .*kW (?:more|less) than", said)
+    read("power compared with", r"than [a-z ]+ \(#\)", said)
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))
     read("power over the flight", "(?:needs|saves) # ±", part.flight)
     read("power over the flight", "By schedule it (?:needs|saves) # ±", part.sentence)
@@ -253,6 +254,7 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
             for name in ("induced", "profile", "parasite", "tail")
         },
         "power": f"{1e-3 * flown.power.total:.0f}",
+        "power compared with": f"{1e-3 * other.power.total:.0f}",
         "power here": as_said(
             flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0),
             None if flown.design == other.design else doubt(flown, other).change_band,
@@ -311,7 +313,8 @@ def test_every_number_on_the_screen_is_that_of_rotor(
     than = "without it" if against == "same-blade" else "with the best fixed blade"
     states = {"set": "at", "schedule": "by schedule at", "stopped": "stopped at"}
     assert re.search(
-        rf" with {id.replace('_', ' ')} {states[state]} .* than {than}, ", line_text(now)
+        rf", twist as built, with {id.replace('_', ' ')} {states[state]} .* than {than} \(\d+\), ",
+        line_text(now),
     )
 
 
@@ -381,7 +384,7 @@ def test_twist_at_n_per_rev_adds_the_same_to_card_dial_and_balance():
         card(rest).over[-1][:5],
         "twist at n/rev 0.75 of 0.30°",
     )
-    assert ", 3/rev 0.75°" in line_text(run_at)
+    assert ", 3/rev twist 0.75° at 60°, " in line_text(run_at)
     assert ", with 3/rev 0.75°" in ACTUATOR.view(run_at)["actuator.now"]
 
 

@@ -127,6 +127,7 @@ def test_no_press_fails(app: App, caplog: pytest.LogCaptureFixture):
             await visitor.idle(wholly=False)
             said = [one.getMessage() for one in caplog.records if one.levelno >= logging.WARNING]
             assert (name, said) == (name, [])
+            assert (name, visitor.frame.get("stale", False)) == (name, False)
 
     visited(app, press)
 
@@ -150,7 +151,7 @@ def test_without_a_trim_the_last_numbers_stay_and_one_press_leads_back(app: App)
         lost = page.context.controls.inputs()
         assert visitor.text("status") == "problem"
         assert visitor.text("total-power") == ""
-        assert all(one["faded"] for one in visitor.frame["strip"] if one)
+        assert all(one["stale"] for one in visitor.frame["strip"] if one)
         await visitor.press("nearest")
         await visitor.idle(wholly=False)
         assert visitor.text("status") == "converged"

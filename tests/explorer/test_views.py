@@ -150,9 +150,9 @@ class TestWhileADragGoesOn:
         assert after["sure-band"].text != before["sure-band"].text
 
     def test_so_do_the_rows_of_the_doubt_greyed(self, rest: PageState):
-        assert "rx-faded" not in TRUST.view(rest)["trust.doubts"]
+        assert "data-stale" not in TRUST.view(rest)["trust.doubts"]
         during = TRUST.view(moved(rest, CHANGED))["trust.doubts"]
-        assert during.count("rx-faded") == 1
+        assert during.count("data-stale") == 1
         assert TRUST.view(rest)["trust.doubts"] in during
 
     def test_slopes_are_stale_until_it_rests(self, rest: PageState):
@@ -195,7 +195,9 @@ def test_axes_hold_while_the_data_fit():
 
 def test_the_change_from_the_reference_and_why():
     assert power_card(now_at(CHANGED))["power"].why.startswith("Lift moved")
-    assert pieces(now_at(CHANGED))["against"].text == " than as built"
+    built = f"{1e-3 * solved(OPENING).power.total:.0f}"
+    assert pieces(now_at(CHANGED))["against"].text == f" than as built ({built})"
+    assert pieces(now_at(CHANGED, OPENING))["against"].text == f" than A ({built})"
     assert power_card(now_at(OPENING))["power"].why == ""
     assert not pieces(now_at(OPENING)).keys() & {"moved", "against"}
 
@@ -209,11 +211,11 @@ class TestWithoutATrim:
         assert pieces(lost).keys() == {"", "wide", "problem"}
         assert pieces(lost)["problem"].text == f" has no trim: {SENTENCE.rstrip('.')}"
         assert power_card(lost) == power_card(good)
-        assert {one.faded for one in strip(lost)["strip"]} == {True}
-        assert {one.faded for one in strip(good)["strip"]} == {False}
+        assert {one.stale for one in strip(lost)["strip"]} == {True}
+        assert {one.stale for one in strip(good)["strip"]} == {False}
         assert worth(lost)["worth"] == {}
         for name, table in DETAILS.view(lost).items():
-            assert "rx-faded" in table
+            assert "data-stale" in table
             assert DETAILS.view(good)[name] in table
         assert SENTENCE in TRUST.view(lost)["trust.status"]
         assert "trust.doubts" not in TRUST.view(lost)
