@@ -18,13 +18,15 @@
       : `<u style="left:${100 * (below + power.ideal) / total}%" title="${text(power.ideal_title)}"></u>`;
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
       <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
-    card.innerHTML = `<div data-answers><div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
+    card.innerHTML = `<div data-answers>
+      <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail">
         <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div>
       <button class="rxf-held" data-do="drawer" data-value="trust" data-explorer="held"
         title="Rotors that did not set the size of ±. Click for how far to trust it" ${power.coverage ? '' : 'hidden'}>
         ${text(power.coverage)}</button></div>
-      <div class="rxf-why rxf-num" data-answers data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
+      <div class="rxf-why rxf-num" data-answers data-explorer="why" title="${text(power.why)}"
+        ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
     const why = card.querySelector('.rxf-why');
     const said = power.why.replace(/ ± | (?=k?W|hp)/g, one => one.replaceAll(' ', '\u00a0'));
