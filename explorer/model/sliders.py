@@ -188,8 +188,10 @@ _LOADING_NAMED = re.compile(r"C_?T/σ (\d\.\d+) (?:at this advance ratio|in hove
 def nearest_trim(
     wanted: Inputs, trims: Callable[[Inputs], bool], sentence: str, carried: float = 0.0
 ) -> Inputs | None:
-    """The nearest inputs that trim, on the sliders' steps: with the mass, the advance ratio or the loading that the
-    sentence names, where it names several the one that is least below what was asked for. None where none of them trims.
+    """The nearest inputs that trim, on the sliders' steps, None where none are known.
+
+    They have the mass, the advance ratio or the loading that the sentence names, of several the one that is least below
+    what was asked for.
 
     `carried`: mass of an actuator [kg], which the sentence counts and the slider does not.
     """

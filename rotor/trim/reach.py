@@ -240,7 +240,8 @@ class _Follower:
             before, earlier = self._trims[-2]
             guess = guess.ahead(earlier.guess, (value - last) / (last - before))
         found = newton(problem, replace(guess, box=None), self._options)
-        if problem.design.models.trim != "free-rotor" or not found.converged:
+        lies_along_linear_trim = problem.design.models.trim != "free-rotor"
+        if lies_along_linear_trim or problem.inflow.wake_along is None or not found.converged:
             return found
         # Its wake lies along the trim found, as in `trim_on_course`.
         laid = replace(problem, course=along(found, problem.course))
