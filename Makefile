@@ -99,6 +99,7 @@ trust: setup-dev      ## make the trust page, docs/validation, anew
 	$(BIN)/python -m rotor reproduce dist/thesis --trust
 	cp -r dist/thesis/validation dist/thesis/validation.md docs/
 	cp dist/thesis/trust.csv assets/
+	$(BIN)/python -m tests.tools.answers
 	$(BIN)/python -m tests.tools.readme
 
 release: setup-dev    ## the checklist of a release: build twice, twine, the wheel alone on every Python here, changelog

@@ -5,7 +5,7 @@ The parts themselves are in `explorer/widgets`, the scene in `explorer/scene`.
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Hashable, Iterator
 from dataclasses import replace
 from functools import partial
 from typing import Literal
@@ -14,7 +14,12 @@ import viser
 
 from explorer.hosting.browser import set_query
 from explorer.hosting.messages import PageFacts
-from explorer.model.actuator_inputs import AT_REST, ActuatorInputs, inputs_from_spec
+from explorer.model.actuator_inputs import (
+    AT_REST,
+    ActuatorInputs,
+    HandSettings,
+    inputs_from_spec,
+)
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import PinResult
 from explorer.model.sliders import nearest_trim
@@ -90,10 +95,19 @@ _NOT_STORED = (
     "This browser stores nothing for the page: a reload keeps the design in the address, and loses history, bookmarks "
     "and your own rotors.",
 )
+_NO_NEAREST = (
+    "No nearest design is known",
+    "Change what the sentence on top names, or undo the last step.",
+)
 _NO_LINK = (
     "Link not read",
     "The browser did not give the page its address: reload the page to open a link.",
 )
+
+
+def _acts(hand: HandSettings) -> tuple[Hashable, ...]:
+    """What of the hand an answer depends on."""
+    return (hand.actuator, hand.state, hand.on_board) if hand.on_board else (False,)
 
 
 class Page:
@@ -121,6 +135,7 @@ class Page:
         client.gui.set_panel_label("Rotor explorer")
         self.latest = PageState(start, None, None, view=replace(view, dark=facts.dark))
         """As of the last update; `now` has the rest."""
+        callbacks = replace(callbacks, wake=partial(self._woken, callbacks.wake))
         self.context = TabContext(client, self.latest, pool, callbacks)
         rotor = start.aircraft.rotor_for(start.preset)
         camera = FittedCamera(client, rotor.radius)
@@ -252,6 +267,8 @@ class Page:
         with context.whole:
             hand = self.actuator.hand()
             inputs, view = self.history.read(tracker.pause), context.display.view
+        if self.latest.state is not None:
+            self._mark_stale()
         return replace(
             self.latest, inputs=inputs, view=view, hand=hand, sliders=None, preview=None, problem=""
         )
@@ -332,6 +349,19 @@ class Page:
             now, inputs=self.context.inputs(), sliders=sliders, hand=self.actuator.hand()
         )
 
+    def _woken(self, wake: Callable[[], None]) -> None:
+        """An input may have changed: mark what is shown, long before the answer, and have the session update it."""
+        # The page may not be whole yet.
+        if self.latest.state is not None:
+            self._mark_stale()
+        wake()
+
+    def _mark_stale(self) -> None:
+        """Say whether what is shown belongs to other inputs than those that are set now."""
+        latest, hand = self.latest, self.actuator.hand()
+        same = _acts(hand) == _acts(latest.hand) and self.context.inputs() == latest.inputs
+        self.context.bridge.set(stale=not same)
+
     def show(self, now: PageState, urgency: Urgency) -> None:
         """Have what is as urgent as this follow a converged state."""
         last, self.latest, context, follow = (
@@ -359,6 +389,9 @@ class Page:
             case "results":
                 # Each message by itself would wake the thread that sends.
                 with context.client.atomic():
+                    # While a hand moves on, each answer ends the mark and the next update begins it: in a drag the page
+                    # is faint only where answers are slow.
+                    context.bridge.set(stale=False)
                     self.optimise.hand.show(state)
                     self._refresh()
                     self._curve.show(state)
@@ -366,11 +399,14 @@ class Page:
                     follow()
                     context.display.show(state)
             case "tabs":
+                # A change is marked on a thread of its own, which may have come too late.
+                self._mark_stale()
                 for show in context.following:
                     show(state)
             case "power":
                 follow((STRIP,).__contains__)
             case "rest":  # Vortices in the scene.
+                self._mark_stale()
                 self.scene.draw_at_rest()
                 self._views.show_plan(state.solution, state.view, at_rest=True)
             case "kept":
@@ -401,6 +437,7 @@ class Page:
     def show_failure(self, now: PageState, good: Solution | None) -> None:
         """Inputs without a solution: the picture, of the last converged one, stays, grey, beneath the sentence."""
         self.latest = now
+        self._mark_stale()
         self._refresh()
         self.panel_updater.follow()
         for show in self.context.following:
@@ -410,7 +447,7 @@ class Page:
         )
 
     def _nearest_trim(self) -> None:
-        """From inputs without a trim to the nearest towards the last that had one; one step of undo takes it back."""
+        """From inputs without a trim to the nearest that their sentence names; one step of undo takes it back."""
         state = self.context.state()
         if state is not None:
             wanted, carried = (
@@ -425,13 +462,16 @@ class Page:
                 except ValueError:
                     return False
 
-            self.context.set_inputs(
-                nearest_trim(state.inputs, wanted, trims, self.latest.problem, kilograms)
-            )
+            nearest = nearest_trim(wanted, trims, self.latest.problem, kilograms)
+            if nearest is None:
+                self.context.notify(*_NO_NEAREST)
+            else:
+                self.context.set_inputs(nearest)
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""
         self.latest = replace(self.latest, problem=brief(sentence))
+        self._mark_stale()
         self.panel_updater.follow()
 
     def _refresh(self) -> None:

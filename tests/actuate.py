@@ -3,19 +3,28 @@
 import math
 from collections.abc import Hashable, Mapping
 from dataclasses import replace
+from functools import cache
 from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import ActuatorInputs, HandSettings
+from explorer.model.actuator_inputs import ActuatorInputs, ActuatorState, HandSettings
 from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.session_state import SessionState
 from explorer.parts.actuate import DialNumbers
 from explorer.views.actuated import counted_from
+from explorer.views.actuator import ACTUATOR
+from explorer.views.assessed import ACTUATOR_CARD
+from explorer.views.dial import DIAL
+from explorer.views.flight import FLIGHT
+from explorer.views.line import works
 from explorer.views.page_state import Effect, MoveSliders, OpenPanels, PageState, Panel, SetHand
 from explorer.workers.call import Call, at_once
+from rotor.actuator.verdict import Against
 from rotor.design import Harmonic
 from rotor.trim.solve import solve
+
+INPUTS = Inputs(law="builtin", advance_ratio=0.2, inflow="drees")
 
 
 def actuate(
@@ -36,6 +45,35 @@ def solved(now: PageState) -> PageState:
     solution = solve(now.hand.fit(design)).require()
     baseline = solve(counted_from(now) or baseline_of(design)).require()
     return replace(now, state=SessionState(now.inputs, ViewState(), solution, baseline, None))
+
+
+@cache
+def run(call: Call) -> Any:
+    return call.run()
+
+
+def answered(
+    against: Against,
+    drives: tuple[float, ...],
+    state: ActuatorState = "set",
+    id: str = "MFC_P1",
+    inputs: Inputs = INPUTS,
+) -> PageState:
+    """The page in a state of the actuator once all that the value waits for is known."""
+    now = actuate(inputs, actuator=ActuatorInputs(id, against=against, drives=drives))
+    for name in ("lean_verdict", "flight_of"):
+        now = told(ACTUATOR, now, **{name: run(asked(ACTUATOR, now)[name])})
+    now = solved(done(now, FLIGHT.presses["state"](now, state)))
+    now = told(ACTUATOR_CARD, now, other_stroke=run(asked(ACTUATOR_CARD, now)["other_stroke"]))
+    effects = {call: run(call) for call in DIAL.asks(now)[0].calls}
+    now = replace(now, answers={**now.answers, **effects})
+    now = worked(ACTUATOR_CARD, worked(DIAL, now))
+    doubts = {task.key: at_once(task.run(lambda: None)) for task in works(now)}
+    now = replace(now, answers={**now.answers, **doubts})
+    flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)
+    return replace(
+        now, answers=told(FLIGHT, flown, powers=run(asked(FLIGHT, flown)["powers"])).answers
+    )
 
 
 def asked(panel: Panel, now: PageState) -> dict[str, Call]:

@@ -7,6 +7,7 @@ import argparse
 import ast
 import inspect
 import json
+import math
 import re
 import shlex
 import types
@@ -28,6 +29,7 @@ from rotor.__main__ import build_parser
 from rotor.__main__ import main as rotor_main
 from rotor.design.quantities import BY_INPUT
 from rotor.support.terminal import OneLineParser
+from rotor.trim import validity
 from tests.tools import measured
 
 matplotlib.use("Agg")
@@ -53,6 +55,62 @@ def named_in(annotation: object, where: types.ModuleType) -> set[type]:
             {annotation} if annotation.__module__.split(".")[0] in ("rotor", "explorer") else set()
         )
     return set().union(*(named_in(part, where) for part in parts))
+
+
+def names_in_source(folder: str, made_by: str) -> set[str]:
+    """First arguments of the calls of a class, and keys of `found`, in the modules of a package."""
+    names = set[str]()
+    for path in (ROOT / "rotor" / folder).glob("*.py"):
+        for node in ast.walk(ast.parse(text(path))):
+            match node:
+                case ast.Call(func=ast.Name(id=name), args=[ast.Constant(value=str(given)), *_]):
+                    if name == made_by:
+                        names.add(given)
+                case ast.Assign(
+                    targets=[
+                        ast.Subscript(
+                            value=ast.Name(id="found"), slice=ast.Constant(value=str(given))
+                        )
+                    ]
+                ):
+                    if path.name == "validity.py":
+                        names.add(given)
+                case _:
+                    pass
+    return names
+
+
+def explained(title: str) -> dict[str, str]:
+    """Name and sentence of each item of a section of the page on troubleshooting."""
+    section = text(DOCS / "troubleshooting.md").split(f"## {title}\n")[1].split("\n## ")[0]
+    return dict(re.findall(r"^- `([\w-]+)`: (.+)$", section, flags=re.MULTILINE))
+
+
+def test_every_caveat_and_limit_has_its_sentence():
+    """By name, as tables have it; and no other name."""
+    caveats = names_in_source("trim", "Caveat")
+    assert {"stall", "rotor-file", "no-hub-loads", "no-blade-structure"} < caveats
+    assert set(explained("Caveats by name")) == caveats
+    limits = names_in_source("actuator", "Limit")
+    assert {"mass", "fibre-strain", "space", "rotor-speed"} < limits
+    assert set(explained("Limits of an actuator by name")) == limits
+
+
+def test_bounds_of_caveats_are_those_of_the_program():
+    sentences = explained("Caveats by name")
+    for name, bounds in {
+        "twist-beyond-built": [math.degrees(validity.LARGEST_BUILT_TWIST)],
+        "nose-up-twist": [math.degrees(validity.NOSE_UP_TWIST)],
+        "small-aspect-ratio": [validity.LEAST_ASPECT_RATIO],
+        "fast-pitch": [validity.FAST_PITCH],
+        "low-speed-inflow": [validity.LOW_SPEED, validity.LOWEST_SPEED],
+        "high-speed": [validity.HIGH_SPEED],
+        "blade-loading": [validity.HOVER_CAUTION],
+        "stall": [100.0 * validity.STALL_SHARE],
+    }.items():
+        numbers = [float(number) for number in re.findall(r"\d+\.?\d*", sentences[name])]
+        for bound in bounds:
+            assert any(math.isclose(number, bound) for number in numbers), name
 
 
 def types_of(one: object) -> set[type]:

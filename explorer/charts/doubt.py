@@ -48,7 +48,7 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
     held = tag("div.rx-dim", f"{coverage_words()}.") if band.of == "Power" else Markup()
     return tag(
         "div.rx.rx-doubt",
-        tag("b", band.sentence),
+        tag("b", band.in_words("It", (unit.symbol, unit.size))),
         held,
         tag("div.rx-dim", title),
         tag("table", rows),
@@ -88,7 +88,7 @@ def twist_ranges(best: BestTwist, units: Units = SI) -> Markup:
         rows.append(tag("tr", cells))
     title = f"Best linear twist for this flight: {number(rate, 1)} °/R"
     if best.cost is not None:
-        title += f"; with other inputs or inflow the best twist would then need about {units.watts(best.cost, 1)} less"
+        title += f"; with other inputs or inflow the best twist would need about {units.watts(best.cost, 1)} less"
     return tag("div.rx.rx-doubt", tag("b", title), tag("table", rows), data_explorer="twist-ranges")
 
 

@@ -205,8 +205,7 @@ class FlownPowers:
         )
         if here is None:
             return ""
-        percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
-        return f"{here.case}: {number(percent, 1, sign=True)} %"
+        return f"{here.case}: {number(100.0 * here.error(solution), 1, sign=True)} %"
 
     def trim_flights(
         self, solution: Solution, shown: Callable[[], None]

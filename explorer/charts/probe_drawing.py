@@ -10,7 +10,7 @@ from explorer.charts.probe_measured import HEIGHT as CHART_HEIGHT
 from explorer.charts.probe_measured import lift_chart, with_indices
 from explorer.charts.svg import Point, chart_box
 from explorer.colours import NOW, THIS
-from explorer.model.units import degrees, number
+from explorer.model.units import adding, degrees, number
 from explorer.picture.element import FlowRegion, Probe, outline, sections_of, where
 from explorer.text.glossary import tip
 from explorer.text.readout import dash
@@ -53,10 +53,55 @@ class DrawingScales:
 
 
 @dataclass(frozen=True)
+class PrintedAngles:
+    """The angles of a section with one decimal [°], rounded so that θ − φ + pitch rate is α as printed."""
+
+    theta: float
+    phi: float
+    pitch_rate: float | None
+    """None in steady flow."""
+    turn: float
+    """Whole turns between the sum and α, which is within ±180°."""
+
+    @property
+    def alpha(self) -> float:
+        """α within ±180°."""
+        return math.fsum((self.theta, -self.phi, self.pitch_rate or 0.0, self.turn))
+
+    @property
+    def sentence(self) -> str:
+        """`θ 14.7° − φ 1.9° + pitch rate 0.5° = α 13.3°`"""
+        words = f"θ {number(self.theta, 1)}° − φ {_in_a_sum(self.phi)}"
+        if self.pitch_rate is not None:
+            words += f" + pitch rate {_in_a_sum(self.pitch_rate)}"
+        if self.turn:
+            words += f" {'−' if self.turn < 0.0 else '+'} {number(abs(self.turn))}°"
+        return f"{words} = α {number(self.alpha, 1)}°"
+
+
+def printed_angles(probe: Probe) -> PrintedAngles:
+    """The angles of a section as they are printed."""
+    parts = [probe.theta, -probe.phi]
+    if probe.pitch_rate is not None:
+        parts.append(probe.pitch_rate)
+    degrees_of_parts = [math.degrees(part) for part in parts]
+    theta, minus_phi, *rate = adding(degrees_of_parts, 1)
+    turns = round((math.degrees(probe.alpha) - math.fsum(degrees_of_parts)) / 360.0)
+    return PrintedAngles(theta, -minus_phi, rate[0] if rate else None, 360.0 * turns)
+
+
+def _in_a_sum(angle: float) -> str:
+    """An angle [°] behind the sign of its term: one below zero in brackets."""
+    text = f"{number(angle, 1)}°"
+    return f"({text})" if text.startswith("−") else text
+
+
+@dataclass(frozen=True)
 class _Sketch:
     """A probe with the angles as they are drawn."""
 
     probe: Probe
+    printed: PrintedAngles
     theta: float
     phi: float
     alpha: float
@@ -88,12 +133,7 @@ def drawing(
         angles=next((k for k in range(OPENED, 1, -1) if opened and k * widest < _WIDEST), 1),
     )
     k = scales.angles
-    sketch = _Sketch(
-        probe,
-        k * probe.theta,
-        k * probe.phi,
-        k * (probe.theta - probe.phi) if k > 1 else probe.alpha,
-    )
+    sketch = _Sketch(probe, printed_angles(probe), k * probe.theta, k * probe.phi, k * probe.alpha)
     parts = (
         _ground(sketch),
         _section(sketch),
@@ -167,8 +207,8 @@ def _triangle(sketch: _Sketch, scale: float) -> Markup:
 
 
 def _angles(sketch: _Sketch) -> Markup:
-    """θ from the disk plane to the chord, φ to the wind, α from the wind to the chord."""
-    probe, small = sketch.probe, sketch.small
+    """θ from the disk plane to the chord, φ to the wind, α from the wind to the chord, which the pitch rate turns."""
+    probe, printed, small = sketch.probe, sketch.printed, sketch.small
     wind = svg.line(
         _ray(sketch.phi, 10.0), _ray(sketch.phi, _RAY if small else 76.0), width=0.8, opacity=_FAINT
     )
@@ -178,13 +218,17 @@ def _angles(sketch: _Sketch) -> Markup:
         + svg.arc(_QUARTER, phi, 0.0, sketch.phi)
         + svg.arc(_QUARTER, alpha, sketch.phi, sketch.alpha, ALPHA, 1.8)
     )
+    if small and probe.pitch_rate is not None:
+        # The chord as the flow meets it, from which α is counted.
+        met = sketch.phi + sketch.alpha
+        arcs += svg.line(_ray(met, 72.0), _ray(met, _RAY), ALPHA, width=0.8, dashes="2 2")
     places = _in_column(sketch) if small else _around(sketch)
     anchors = (
         ("start", "start", "start", "end") if small else ("start", "middle", "middle", "start")
     )
     words = (
-        (f"θ {degrees(probe.theta, 1)}", "currentColor", None, None),
-        (f"φ {degrees(probe.phi, 1)}", "currentColor", None, None),
+        (f"θ {number(printed.theta, 1)}°", "currentColor", None, None),
+        (f"φ {number(printed.phi, 1)}°", "currentColor", None, None),
         (f"α {degrees(probe.alpha, 1)}", ALPHA_INK, _BOLD, None),
         ("disk plane", "currentColor", None, _FAINT),
     )
@@ -272,6 +316,7 @@ def probe_panel(
         "div.rx.rx-probe",
         _head(probe),
         picture,
+        _sum(probe),
         _key(scales),
         _table(probe),
         measured,
@@ -287,11 +332,26 @@ def _head(probe: Probe) -> Markup:
     )
     return tag(
         "div.rx-line.rx-base",
-        tag("span.rx-best", alpha, data_explorer="probe-alpha", title=tip("probe_alpha")),
+        tag("span.rx-best", alpha, data_explorer="probe-alpha", title=_alpha_tip(probe)),
         tag("span.rx-dim", where(probe.psi), data_explorer="probe-place"),
         tag(chip, probe.region.value, data_explorer="probe-region", title=tip("probe_region")),
         tag("button", "Ride along", data_do="ride", title=tip("ride")),
     )
+
+
+def _sum(probe: Probe) -> Markup:
+    """What the angle of attack is made of."""
+    return tag(
+        "div.rx-line.rx-small.rx-num",
+        printed_angles(probe).sentence,
+        data_explorer="probe-angles",
+        title=_alpha_tip(probe),
+    )
+
+
+def _alpha_tip(probe: Probe) -> str:
+    """The formula of α that is used here."""
+    return tip("probe_alpha" if probe.pitch_rate is None else "probe_alpha_unsteady")
 
 
 def _key(scales: DrawingScales) -> Markup:

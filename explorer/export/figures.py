@@ -268,7 +268,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
             class_="" if kind == "less" and not verdict.buildable else kind,
             data_report="verdict",
         ),
-        tag("p.dim", verdict_details(verdict)),
+        tag("p.dim", verdict_details(verdict, (units.power[0].symbol, units.power[0].size))),
         parts,
         tag("ul.care", [tag("li", care) for care in cares]) if cares else None,
     )

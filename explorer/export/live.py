@@ -16,17 +16,25 @@ from explorer import web
 from explorer.charts.svg import HALF_EDGE, disk_marks
 from explorer.colours import PARTS, VOID, colour_map
 from explorer.export.figures import bar
-from explorer.export.fitted import TOLERANCE, Fitted, fitted
+from explorer.export.fitted import TOLERANCE, Family, Fitted, fitted
 from explorer.export.provenance import PROGRAM, document_html
 from explorer.model.inputs import ViewState, inputs_of
 from explorer.model.units import SI, Units, number
+from explorer.parts.results import LinePiece
 from explorer.picture.blade_mesh import inset_places, inset_sections
 from explorer.picture.fields import FIELDS, Field, fitted_range
 from explorer.picture.picture import field_values, flown_twist
 from explorer.picture.plan import outline, packed, reverse_flow_segments
 from explorer.picture.polar import CLEAR_OF_REVERSE, DrawnSolution, PolarGrid, polar_grid
 from explorer.text.design_words import flight_words, model_words, title_words
-from explorer.text.line import flight_pieces, plain, sentence, twist_pieces
+from explorer.text.line import (
+    blade_pieces,
+    carried_layout,
+    carrying_pieces,
+    control,
+    flight_pieces,
+    sentence,
+)
 from explorer.text.readout import fineness, part_titles
 from rotor import Solution
 from rotor.design import TwistLaw
@@ -198,27 +206,34 @@ def _card(made: Fitted) -> Markup:
 def _line(made: Fitted, units: Units) -> list[tuple[str, int | None]]:
     """Words before the power, each piece with the slider whose number it is."""
     design = made.solution.design
-    inputs, handles = inputs_of(design), made.family.handles
-    flight = plain(flight_pieces(inputs, units)).removesuffix(".")
-    if design.rotor.blade.carried is not None:
-        drives = [(", " if k else f" with {made.family.title} at ", k) for k in range(len(handles))]
-        unit = handles[0].form.label.partition("[")[2].rstrip("]")
-        return [
-            (flight, None),
-            *(piece for text, k in drives for piece in ((text, None), ("", k))),
-            (f" {unit}", None),
-        ]
-    names = [one.name for one in handles]
-    if inputs.law == "builtin":  # Its changes are named although they are zero.
-        inputs = replace(inputs, **{names[0]: 1.0})
-    pieces = [
-        (piece.text, piece.control.name if piece.control else "")
-        for piece in twist_pieces(inputs, design)
-    ]
+    inputs = inputs_of(design)
+    names = [one.name for one in made.family.handles]
+    carried = design.rotor.blade.carried
+    if carried is not None:
+        drives = _drive_pieces(made.family, carried_layout(carried))
+        pieces = flight_pieces(inputs, units, carried.aircraft_kg)
+        pieces += carrying_pieces(inputs, design.bare, drives)
+    else:
+        pieces = flight_pieces(inputs, units)
+        if inputs.law == "builtin":
+            # Its changes are named although they are zero.
+            inputs = replace(inputs, **{names[0]: 1.0})
+        pieces += blade_pieces(inputs, design)
+    controls = [piece.control.name if piece.control else "" for piece in pieces]
     return [
-        (flight, None),
-        *((text, names.index(name) if name in names else None) for text, name in pieces),
+        (piece.text, names.index(name) if name in names else None)
+        for piece, name in zip(pieces, controls, strict=True)
     ]
+
+
+def _drive_pieces(family: Family, layout: str) -> list[LinePiece]:
+    """The actuator with its drives as controls: ` with MFC P1 at 77, 50 %`."""
+    pieces = [LinePiece(f" with {family.title}{layout} at ")]
+    for k, one in enumerate(family.handles):
+        pieces += [LinePiece(", ")] if k else []
+        pieces.append(control(one.name, one.form, one.value))
+    unit = family.handles[0].form.label.partition("[")[2].rstrip("]")
+    return [*pieces, LinePiece(f" {unit}")]
 
 
 def _accuracy(made: Fitted, angle: _FittedField, units: Units) -> Markup:

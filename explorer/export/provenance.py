@@ -16,6 +16,7 @@ import numpy as np
 from explorer import web
 from explorer.charts import plots
 from explorer.charts.plots import SWEEP, PowerCurve
+from explorer.model.units import SI, Units
 from explorer.picture.picture import flown_twist
 from explorer.text.design_words import inflow_words, physics_words, title_words
 from explorer.text.glossary import COLUMNS
@@ -69,6 +70,7 @@ def document_html(
     when: datetime,
     styles: Sequence[str] = ("report.css",),
     scripts: Sequence[str] = ("report.js",),
+    units: Units = SI,
 ) -> str:
     """A file that opens without a server, with what its numbers are worth and what was measured of `solution`. Of
     scripts other than the report's no further one may run in it."""
@@ -84,7 +86,7 @@ def document_html(
             "version": versions()[PROGRAM],
             "content": content,
             "validity": validity,
-            "measured": validated(solution).sentence,
+            "measured": units.in_power_unit(validated(solution).sentence),
             "versions": group(
                 tag("tr", tag("td", name), tag("td", text)) for name, text in versions().items()
             ),

@@ -19,7 +19,7 @@ from explorer.export.figures import actuator_section
 from explorer.export.live import live_html
 from explorer.export.provenance import document_html
 from explorer.model.inputs import ViewState, baseline_of, baseline_title
-from explorer.model.units import number
+from explorer.model.units import Units, number
 from explorer.picture.fields import FIELDS
 from explorer.scene.still_scene import EmbeddedViewer, make_stage
 from explorer.text.design_words import flight_words, model_words, title_words, wave_words
@@ -60,6 +60,7 @@ def report_html(
         group(overview, sections),
         "Every design here is trimmed: thrust balances weight and drag, and the parts of power add up to the total.",
         report.when,
+        units=report.units,
     )
 
 
@@ -143,7 +144,7 @@ def _section(report: DesignReport, k: int) -> Markup:
         tag("p.lead", title_words(design)),
         tag("p.dim", f"With {active}.") if active else None,
         tag("p.dim", flight_words(design, report.units), tag("br"), model_words(design)),
-        _caveats(solution),
+        _caveats(solution, report.units),
         figures.disks(report, entry, k),
         tag(
             "div.tables",
@@ -160,9 +161,10 @@ def _section(report: DesignReport, k: int) -> Markup:
     )
 
 
-def _caveats(solution: Solution) -> Markup:
+def _caveats(solution: Solution, units: Units) -> Markup:
     if solution.caveats:
-        return tag("ul.care", [tag("li", caveat.sentence) for caveat in solution.caveats])
+        sentences = (units.in_power_unit(caveat.sentence) for caveat in solution.caveats)
+        return tag("ul.care", [tag("li", sentence) for sentence in sentences])
     sentence = f"Trimmed: it carries its weight and overcomes its drag, within {tiny(solution.residual)} of the weight."
     return tag("p.good", sentence)
 

@@ -137,11 +137,11 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
     """How sure power is, and its change from the reference, each above its causes."""
     band, unit = report.band(entry), report.units.power[0]
 
-    def causes(title: str, words: str, of: Callable[[DoubtRow], float]) -> Markup:
-        """The largest, and the rest as one: their squares add up to that of the first row."""
+    def causes(title: str, words: str, whole: float, of: Callable[[DoubtRow], float]) -> Markup:
+        """The whole band, its largest causes, and the rest as one."""
         named = [(f"{row.words} ± {row.size_words}", abs(of(row))) for row in band.rows]
         named.sort(key=lambda one: -one[1])
-        sizes = [(words, math.hypot(*(size for _, size in named))), *named[:MOST_ROWS]]
+        sizes = [(words, whole), *named[:MOST_ROWS]]
         if rest := named[MOST_ROWS:]:
             sizes.append((f"{len(rest)} smaller causes", math.hypot(*(size for _, size in rest))))
         # No line ends between a number and its unit.
@@ -151,15 +151,13 @@ def doubts(report: DesignReport, entry: ReportEntry) -> Markup:
         ]
         return _table(title, zip([name for name, _ in sizes], bands, strict=True))
 
-    power = causes("Uncertainty of power", "Power", lambda row: row.power)
-    if band.sureness is None:
+    power = causes("Uncertainty of power", "Power", band.band, lambda row: row.power)
+    within = band.change_band
+    if band.sureness is None or within is None:
         return power
-    return group(
-        power,
-        causes(
-            "Uncertainty of the change", f"Change: {band.sureness}", lambda row: row.change or 0.0
-        ),
-    )
+    words = f"Change: {band.sureness}"
+    change = causes("Uncertainty of the change", words, within, lambda row: row.change or 0.0)
+    return group(power, change)
 
 
 def vibration(solution: Solution) -> Markup:

@@ -128,6 +128,15 @@ class Units:
 
         return re.sub(r"(\d+) kg\b", mass, sentence)
 
+    def in_power_unit(self, sentence: str) -> str:
+        """A sentence with its powers, in W or kW, in the main unit, to as many decimals."""
+
+        def power(found: re.Match[str]) -> str:
+            watts = float(found[1]) * (1e3 if found[3] else 1.0)
+            return self.watts(watts, len(found[2] or ".") - 1)
+
+        return re.sub(r"(\d+(\.\d+)?) (k?)W\b", power, sentence)
+
     def in_words(self, row: Quantity, value: float) -> str:
         """A number in the unit of its name, in words: `climb 5.0 m/s`, `descent 3.0 m/s`; empty at its default."""
         if value == row.default:

@@ -39,6 +39,8 @@ class Parts(TypedDict, total=False):
     prompt: stage.SceneLabel | None
     ride: stage.RidePart | None
     twisting: stage.TwistingPart | None
+    stale: bool
+    """Whether what is shown belongs to other inputs than those that are set."""
     steps: Sequence[frame.StepPart]
     strip: Sequence[results.StripChart]
     suppose: actuate.SupposePart | None

@@ -63,8 +63,6 @@ class StepPart:
     name: str
     title: str
     watch: str
-    a: str
-    b: str
     question: str
     options: Sequence[str]
     todo: str
@@ -90,7 +88,8 @@ class StepAnswer:
 class LecturePart:
     """Where the lecture stands: at which step, from 0, and at which position (`stop`) of its control.
 
-    `figures`: caption of each, its value, and its band in words.
+    `figures`: caption of each, its value, and its band in words. `a`, `b`: names of what is compared on the page, empty
+    where nothing is. `note`: that the page shows another design than the step does.
     """
 
     at: int
@@ -98,5 +97,8 @@ class LecturePart:
     answer: StepAnswer | None
     stop: int
     figures: Sequence[tuple[str, str, str]]
+    a: str
+    b: str
+    note: str
     busy: bool
     problem: str

@@ -104,7 +104,7 @@ class MarkedSpeeds:
 class StripChart:
     name: str
     kind: Kind
-    faded: bool
+    stale: bool
     chart: DrawnChart
     speeds: MarkedSpeeds | None = None
 

@@ -42,7 +42,7 @@ class FieldPart:
     unit: str
     colours: Sequence[str]
     ticks: Sequence[tuple[float, str]]
-    faded: bool
+    stale: bool
     fitted: bool
     regions: Mapping[str, bool]
     shares: Mapping[str, str]

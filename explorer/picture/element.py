@@ -88,8 +88,10 @@ class Probe:
     """Elastic twist [rad]; None for a rigid blade."""
     phi: float
     """Inflow angle atan2(U_P, U_T) [rad]: near π where the flow comes from the trailing edge."""
+    pitch_rate: float | None
+    """What the pitch rate adds to α at three quarters of the chord [rad]; None in steady flow."""
     alpha: float
-    """θ − φ in (−π, π], about the blade's reference line; in unsteady flow that of three quarters of the chord."""
+    """θ − φ, in unsteady flow with the part of the pitch rate, in (−π, π], about the blade's reference line."""
     u_t: float
     """In the plane of the disk and normal to the blade [m/s]."""
     u_p: float
@@ -196,8 +198,10 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
     section = SectionBlend(parts, delay)
     mach = max(mach, 0.0)
     table_mach = mach if design.models.compressibility else LOW_MACH
-    ahead = at.held(disk.pitch_of_alpha - disk.theta)
-    alpha = math.pi - (math.pi - theta - ahead + phi) % (2.0 * math.pi)
+    pitch_rate = None
+    if disk.find_apparent is not None:
+        pitch_rate = at.held(disk.pitch_of_alpha - disk.theta)
+    alpha = math.pi - (math.pi - theta - (pitch_rate or 0.0) + phi) % (2.0 * math.pi)
     lower, upper = stall_angles(solution)
     unsteady = disk.unsteady
     idle = u_t < 0.0 and not design.models.reverse_flow
@@ -210,6 +214,7 @@ def probe(solution: Solution, r: float, psi: float) -> Probe:
         theta=theta,
         elastic=None if disk.elastic_twist is None else at.reaching(disk.elastic_twist),
         phi=phi,
+        pitch_rate=pitch_rate,
         alpha=alpha,
         u_t=speed * u_t,
         u_p=speed * u_p,
@@ -348,9 +353,10 @@ def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
         section=sections_of(around[0].section),
         outline=np.round(outline(around[0].section), 4).tolist(),
         u=[round(math.copysign(here.u, here.u_t), 1) for here in around],
-        theta=_rounded([math.degrees(here.theta) for here in around]),
-        phi=_rounded([math.degrees(math.remainder(here.phi, 2.0 * math.pi)) for here in around]),
-        alpha=_rounded(alpha),
+        # The page rounds angles once more, to one decimal.
+        theta=_rounded([math.degrees(here.theta) for here in around], 4),
+        phi=_rounded([math.degrees(math.remainder(here.phi, 2.0 * math.pi)) for here in around], 4),
+        alpha=_rounded(alpha, 4),
         cl=_rounded(cl, 3),
         mach=_rounded([here.table_mach for here in around]),
         lift=_rounded([here.lift / 1e3 for here in around], 3),

@@ -6,14 +6,14 @@ Nothing is stored: all of it is computed, in a worker process or when a file is 
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from typing import Literal
+from dataclasses import replace
 
 import numpy as np
 
 from explorer.model.actuator_inputs import ActuatorInputs, schedule_at
 from explorer.model.inputs import Inputs
-from explorer.model.units import Unit, Units, number
+from explorer.model.units import SI, number
+from explorer.story.numbers import ChartLine, ControlStop, Kind, Number, StepChart, StepFacts
 from explorer.story.steps import (
     FRONT,
     SPEEDS,
@@ -21,22 +21,21 @@ from explorer.story.steps import (
     LectureStep,
     angle_words,
     compared_inputs,
-    on_one_line,
     speed_words,
 )
 from explorer.text.design_words import listed
-from explorer.text.readout import banded, digits_of, limit_words
+from explorer.text.readout import limit_words
 from rotor import Solution, doubt, make_design, solve, vibration_front
 from rotor.actuator import FlightLeg, fly, try_actuator
-from rotor.actuator.verdict import net_band_words
+from rotor.actuator.verdict import Verdict
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import Harmonic
+from rotor.design.uncertain import uncertain_inputs
 from rotor.optimisation.doubt import difference_doubt
+from rotor.optimisation.vibration import FrontPoint
+from rotor.trim.doubt import Doubt, sure_words, with_other_inflow
 from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist
 
-Kind = Literal[
-    "power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"
-]
 ACTUATOR = "MFC_P1"
 """Actuator of the last step."""
 _FLAT_SHARE = 0.001
@@ -45,107 +44,6 @@ _HARMONICS, _REACH = (2, 3), 1.0
 """Active twist of the front: harmonics, and the largest amplitude of each [°]."""
 _BUILT = tuple(RUNGS)
 """The preset `flight`, as the ladder names its assumptions."""
-
-
-@dataclass(frozen=True)
-class Number:
-    """A number of the text, in SI; angles in degrees, shares as parts of one."""
-
-    kind: Kind
-    value: float
-    text: str = ""
-    """Text of a fact of kind "words"."""
-    band: float | None = None
-    """Either side of a difference of powers; None: not known."""
-
-    def words(self, units: Units) -> str:
-        """The fact as it is written, on one line."""
-        value = self.value
-        match self.kind:
-            case "power" | "change" | "percent" if self.band:
-                unit = Unit("%", 0.01) if self.kind == "percent" else units
-                text = banded(value, self.band, unit, sign=self.kind == "change").partition(":")[0]
-            case "power" | "change":
-                text = units.watts(value, digits_of(value, units), sign=self.kind == "change")
-            case "percent" | "fine" | "signed":
-                digits = (
-                    2
-                    if self.kind == "fine"
-                    else 0
-                    if abs(value) >= 0.095 or (100.0 * value) % 1.0 == 0.0
-                    else 1
-                )
-                text = f"{number(100.0 * value, digits, sign=self.kind == 'signed')} %"
-            case "angle":
-                text = f"{number(value, 1)}°"
-            case "mu":
-                text = speed_words(value)
-            case "mass":
-                text = units.mass.text(value, 0) if units.mass.size < 1.0 else f"{number(value)} kg"
-            case "count":
-                text = number(value)
-            case "words":
-                return self.text
-        return on_one_line(text)
-
-
-@dataclass(frozen=True)
-class ChartLine:
-    """One line of a chart, in the colour of a part of power, "a", "b" or "limit"; None where there is no trim."""
-
-    name: str
-    colour: str
-    y: tuple[float | None, ...]
-
-
-@dataclass(frozen=True)
-class StepChart:
-    """What is drawn in the caption: power [W], a part of one, or degrees over what is moved."""
-
-    x_title: str
-    y_title: str
-    kind: Literal["power", "percent", "angle"]
-    x: tuple[float, ...]
-    x_kind: Literal["mu", "rate", "signed"]
-    lines: tuple[ChartLine, ...]
-    band: tuple[tuple[float, ...], tuple[float, ...]] | None = None
-    """Low and high."""
-    dots: tuple[str, ...] = ()
-    """Colours of the dots; those of the lines where none are given."""
-
-
-@dataclass(frozen=True)
-class ControlStop:
-    words: str
-    inputs: Inputs
-    against: Inputs | None
-    dots: tuple[tuple[float, float], ...]
-    """Where it is on the chart."""
-    actuator: ActuatorInputs | None = None
-    """What is set of the actuator there, in Actuate."""
-    numbers: Mapping[str, Number] = field(default_factory=dict[str, Number])
-    """Large numbers of this place alone."""
-
-
-@dataclass(frozen=True)
-class StepFacts:
-    """What a step needs beside the trim that is seen."""
-
-    stops: tuple[ControlStop, ...]
-    numbers: Mapping[str, Number]
-    right: int
-    """Place of the right answer among those to choose from."""
-    chart: StepChart
-    open: tuple[int, ...] = ()
-    """Places of other answers that its band does not rule out."""
-
-    def words(self, units: Units) -> dict[str, str]:
-        """The numbers as they are written."""
-        return words_of(self.numbers, units)
-
-
-def words_of(numbers: Mapping[str, Number], units: Units) -> dict[str, str]:
-    return {name: number.words(units) for name, number in numbers.items()}
 
 
 def facts_of(step: LectureStep) -> StepFacts:
@@ -214,22 +112,56 @@ def _hover_twist(step: LectureStep) -> StepFacts:
     return blades.facts(numbers, saving, chart, level, totals)
 
 
-def _changes(step: LectureStep) -> StepFacts:
-    """Changes of induced and profile power from A to B, over twist: with linear inflow, and with a wake."""
+def _linear_inflow(step: LectureStep) -> StepFacts:
+    """Changes of power from A to B over twist with linear inflow, and beside them those with a wake.
+
+    They have no bands: with this model the band of a change is little else than a share of its distance from the wake.
+    """
     blades = _ControlSweep(step)
     a, b = blades.pair
-    powers = [(here.power, there.power) for here, there in zip(blades.b, blades.a, strict=True)]
-    induced = tuple(here.induced - there.induced for here, there in powers)
-    profile = tuple(here.profile - there.profile for here, there in powers)
-    lines = ChartLine("induced", "induced", induced), ChartLine("profile", "profile", profile)
-    chart = StepChart("twist [°/R]", "B − A", "power", step.control.values, "rate", lines)
-    by_induced, by_profile = (
-        getattr(b.power, name) - getattr(a.power, name) for name in ("induced", "profile")
-    )
-    part = by_induced / (b.power.total - a.power.total)
-    numbers = _named(step, a, b) | _of("percent", induced_part=part)
-    answer = abs(by_induced) / abs(by_profile) if step.name == "linear_inflow" else part
-    return blades.facts(numbers, answer, chart, induced, profile)
+    changes = blades.changes()
+    by_wake = blades.changes_with_other_inflow()
+    start = step.control.start
+    numbers = _named(step, a, b) | _inflow_distance(b)
+    for part, values in changes.items():
+        numbers[f"{part}_change"] = Number("change", values[start])
+        numbers[f"{part}_other"] = Number("change", by_wake[part][start])
+    ratio = abs(changes["induced"][start]) / abs(changes["profile"][start])
+    chart = _changes_chart(step, changes)
+    facts = blades.facts(numbers, ratio, chart, changes["induced"], changes["profile"])
+    stops = list[ControlStop]()
+    for k, stop in enumerate(facts.stops):
+        other = {f"{part}_change": Number("change", by_wake[part][k]) for part in by_wake}
+        stops.append(replace(stop, other_model=other))
+    return replace(facts, stops=tuple(stops))
+
+
+def _responding_wake(step: LectureStep) -> StepFacts:
+    """Changes of power from A to B over twist with a wake, and the change that linear inflow gives."""
+    blades = _ControlSweep(step)
+    a, b = blades.pair
+    changes = blades.changes()
+    linear = blades.changes_with_other_inflow()
+    start = step.control.start
+    part = changes["induced"][start] / changes["total"][start]
+    numbers = _named(step, a, b) | _inflow_distance(b) | _of("percent", induced_part=part)
+    numbers |= _of("change", total_other=linear["total"][start])
+    chart = _changes_chart(step, changes)
+    return blades.facts(numbers, part, chart, changes["induced"], changes["profile"])
+
+
+def _changes_chart(step: LectureStep, changes: Mapping[str, tuple[float, ...]]) -> StepChart:
+    """Changes of induced and profile power over twist."""
+    lines = tuple(ChartLine(part, part, changes[part]) for part in ("induced", "profile"))
+    return StepChart("twist [°/R]", "B − A", "power", step.control.values, "rate", lines)
+
+
+def _inflow_distance(solution: Solution) -> dict[str, Number]:
+    """The share of the distance between two inflow models that is in the band of a change."""
+    for row in uncertain_inputs(solution.design):
+        if row.name == "inflow_model_percent":
+            return _of("percent", model_share=0.01 * row.size)
+    raise LookupError("inflow_model_percent is not among the uncertain inputs.")
 
 
 def _fast_twist(step: LectureStep) -> StepFacts:
@@ -316,7 +248,6 @@ def _two_segments(step: LectureStep) -> StepFacts:
         | _said(
             twist_inner=angle_words(inputs.two_inner), twist_outer=angle_words(inputs.two_outer)
         )
-        | _said(twist_a=angle_words(_against(step).linear))
         | _of("angle", flat_low=min(flat), flat_high=max(flat))
     )
     level = (0.0,) * len(changes)
@@ -363,7 +294,6 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
             fixed_power=1e3 * moving.fixed_kw,
         )
         | _of("percent", band=_FLAT_SHARE)
-        | _said(fixed=angle_words(round(fixed, 1)))
     )
     lines = (
         ChartLine("best fixed, A", "a", (fixed,) * len(SPEEDS)),
@@ -386,13 +316,19 @@ def _power_or_vibration(step: LectureStep) -> StepFacts:
         waves = () if twist is None else tuple(map(_rounded, twist.harmonics))
         inputs = replace(step.inputs, twist_per_rev=waves)
         stops.append(
-            ControlStop(step.control.words(float(k)), inputs, step.against, ((power, index),))
+            ControlStop(
+                step.control.words(float(k)),
+                inputs,
+                step.against,
+                ((power, index),),
+                index_band=point.over_inflows,
+            )
         )
-    last, ends = front.points[-1], front.points[-1].over_inflows or (0.0, 0.0)
+    first, last = front.points[0], front.points[-1]
     powers, indices = zip(*changes, strict=True)
     start = solve(front.start.design)
     saves, costs = (
-        doubt(solve(point.design, start), start).saving_words for point in (front.points[0], last)
+        doubt(solve(point.design, start), start).saving_words for point in (first, last)
     )
     numbers = (
         _named(step, None, None)
@@ -400,15 +336,21 @@ def _power_or_vibration(step: LectureStep) -> StepFacts:
         | _of("count", blades=last.design.rotor.blades)
         | _said(saves=saves, costs=costs)
         | _of("signed", index_change=indices[0], best_index=indices[-1])
-        | _of("signed", wakes_low=0.01 * ends[0], wakes_high=0.01 * ends[1])
+        | _said(index_wakes=_over_wakes(first), best_wakes=_over_wakes(last))
     )
     lines, across = (ChartLine("front", "b", indices),), "power, change from A"
     chart = StepChart(across, "vibration index, change from A", "percent", powers, "signed", lines)
     return _banded(
         step,
         _answered(step, tuple(stops), numbers, indices[0], chart),
-        *(0.01 * end for end in ends),
+        *(0.01 * end for end in first.over_inflows or (0.0, 0.0)),
     )
+
+
+def _over_wakes(point: FrontPoint) -> str:
+    """Least and largest change of the vibration index over wake models, as `−20 % to +31 %`."""
+    low, high = (Number("signed", 0.01 * end) for end in point.over_inflows or (0.0, 0.0))
+    return f"{low.words(SI)} to {high.words(SI)}"
 
 
 def _rounded(wave: Harmonic) -> Harmonic:
@@ -447,8 +389,9 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
         if limit.name not in installed.actuator.range_limits
     ]
     numbers = (
-        _said(sure_here=here.sureness or "", limits=listed(over), actuator=installed.actuator.name)
-        | _said(sure=net_band_words(verdict).rpartition(": ")[2])
+        _said(limits=listed(over), actuator=installed.actuator.name)
+        | _said(sure_here=_sureness(here), sure_gross=_sureness(gross), sure_cost=_sureness(costs))
+        | _said(sure=_net_sureness(verdict))
         | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1], mu=SPEEDS[start])
         | _said(
             reach_low=f"{number(reach[0], 1, sign=True)}°",
@@ -480,11 +423,25 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
     return replace(facts, stops=tuple(stops))
 
 
+def _sureness(change: Doubt) -> str:
+    """Whether the sign of a change is known, and why no more than that; empty where there is no change."""
+    if change.sureness is None or change.change is None or change.change_band is None:
+        return ""
+    return sure_words(change.change, change.change_band, sourced=change.sourced)
+
+
+def _net_sureness(verdict: Verdict) -> str:
+    """Whether the sign of the net saving is known, and why no more than that; empty without a band."""
+    if verdict.net_band is None:
+        return ""
+    return sure_words(verdict.net_saving, verdict.net_band, sourced=verdict.sourced)
+
+
 _FINDERS: dict[str, Callable[[LectureStep], StepFacts]] = {
     "trim": _trim,
     "hover_twist": _hover_twist,
-    "linear_inflow": _changes,
-    "responding_wake": _changes,
+    "linear_inflow": _linear_inflow,
+    "responding_wake": _responding_wake,
     "fast_twist": _fast_twist,
     "reverse_flow": _reverse_flow,
     "two_segments": _two_segments,
@@ -515,6 +472,16 @@ class _ControlSweep:
         start = self._step.control.start
         return self.a[start], self.b[start]
 
+    def changes(self) -> dict[str, tuple[float, ...]]:
+        """Changes from A to B of total power and of its parts along the control [W]."""
+        return _power_changes(self.b, self.a)
+
+    def changes_with_other_inflow(self) -> dict[str, tuple[float, ...]]:
+        """`changes` of the same blades with the other of the two inflow models that a band compares."""
+        b = [solve(with_other_inflow(solution.design)).require() for solution in self.b]
+        a = [solve(with_other_inflow(solution.design)).require() for solution in self.a]
+        return _power_changes(b, a)
+
     def facts(
         self,
         numbers: Mapping[str, Number],
@@ -529,6 +496,14 @@ class _ControlSweep:
             for k, (stop, value) in placed
         )
         return _answered(self._step, stops, numbers, answer, chart)
+
+
+def _power_changes(b: Sequence[Solution], a: Sequence[Solution]) -> dict[str, tuple[float, ...]]:
+    pairs = [(after.power, before.power) for after, before in zip(b, a, strict=True)]
+    return {
+        part: tuple(getattr(after, part) - getattr(before, part) for after, before in pairs)
+        for part in ("total", "induced", "profile", "tail")
+    }
 
 
 def _trimmed(designs: Sequence[Inputs]) -> list[Solution]:
@@ -569,9 +544,9 @@ def _banded(step: LectureStep, facts: StepFacts, low: float, high: float) -> Ste
 def _named(step: LectureStep, a: Solution | None, b: Solution | None) -> dict[str, Number]:
     """What most texts name: the flight, the twists, powers of A and B and their differences."""
     inputs = step.begin()
-    numbers = _of("mu", mu=inputs.advance_ratio) | _of("angle", twist_b=inputs.linear)
+    numbers = _of("mu", mu=inputs.advance_ratio) | _said(twist_b=angle_words(inputs.linear))
     if step.against is not None:
-        numbers |= _of("angle", twist_a=step.against.linear)
+        numbers |= _said(twist_a=angle_words(step.against.linear))
     if a is None or b is None:
         return numbers
     sure = doubt(b, a)

@@ -22,8 +22,6 @@ def step_record(step: LectureStep, facts: StepFacts | None, units: Units) -> Ste
         name=step.name,
         title=text.title,
         watch=filled(text.watch),
-        a=filled(text.a),
-        b=filled(text.b),
         question=filled(text.question),
         options=[filled(option) for option in text.options],
         todo=filled(text.todo),

@@ -36,7 +36,7 @@ class StepText:
     todo: str
     """What to try; the control's name in asterisks."""
     a: str = ""
-    """What A is; empty where nothing is compared."""
+    """What the twist of A is at every place of the control; empty where it is not special."""
     b: str = ""
 
     @property

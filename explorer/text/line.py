@@ -3,17 +3,37 @@
 Its pieces are words, or controls: the sliders of what the hand has set.
 """
 
+import math
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 
-from explorer.model.inputs import FLIGHT, LAWS, NOT_ALWAYS, OWN, ROWS, TWISTS, Inputs, inputs_of
-from explorer.model.sliders import slider, stand_slider
-from explorer.model.stand import LOAD_TITLES
+from explorer.model.inputs import (
+    FLIGHT,
+    HELD,
+    INFLOW_MENUS,
+    LAWS,
+    NOT_ALWAYS,
+    OWN,
+    ROWS,
+    TWISTS,
+    Inputs,
+    inputs_of,
+)
+from explorer.model.sliders import STAND_SLIDERS, slider, stand_slider
+from explorer.model.stand import LOAD_TITLES, StandInputs
 from explorer.model.units import Units, number, shown
 from explorer.parts.results import Kind, LineControl, LinePiece
-from explorer.text.design_words import AS_BUILT, listed, twist_name, wave_names
-from explorer.text.readout import change_sizes, fineness
+from explorer.text.design_words import AS_BUILT, listed, twist_name
+from explorer.text.readout import change_sizes, fineness, total_size
 from rotor import Design, Solution
+from rotor.actuator.catalogue import find_actuator
+from rotor.actuator.installation import read_actuator
+from rotor.actuator.section import HostBlade, Placement, default_placement
+from rotor.design import Harmonic
+from rotor.design.blade import Carried
+from rotor.design.design import preset_models
+from rotor.design.quantities import OPTIONS, PRESETS, QUANTITIES, SWITCHES
 from rotor.design.quantity import Slider
 from rotor.support.user_input import shorten
 from rotor.trim.doubt import Doubt, decimals, sure_words, sureness
@@ -25,8 +45,14 @@ _STANDS = {
     "controls": "with given controls",
 }
 WIDE = "wide"
-"""The part of words that a telephone can do without."""
+"""The part of names that a telephone can do without."""
+BESIDE = "beside"
+"""The part of the answer that it can do without."""
+MODELS = "models"
+"""The part of words that say how the answer is computed."""
 _COUNTED = ("no", "one", "two", "three", "four", "five")
+_MOST_NAMED = 2
+"""Effects that are switched, or limits, that the line names; of more it says how many, and its tooltip which."""
 
 
 def control(
@@ -41,8 +67,9 @@ def control(
     )
 
 
-def flight_pieces(inputs: Inputs, units: Units) -> list[LinePiece]:
-    """Aircraft and flight, or the test of the rotor alone."""
+def flight_pieces(inputs: Inputs, units: Units, carried_kg: float = 0.0) -> list[LinePiece]:
+    """Aircraft and flight, or the test of the rotor alone. `carried_kg`: mass of an actuator, which the slider of mass
+    does not count."""
     aircraft, stand, speed = (
         inputs.aircraft,
         inputs.stand,
@@ -56,7 +83,9 @@ def flight_pieces(inputs: Inputs, units: Units) -> list[LinePiece]:
             LinePiece(" of "),
             control("mass_t", weight, shown(ROWS["mass_t"], inputs.mass_t, units)),
         ]
-        pieces.append(LinePiece(f" {weight.label.partition('[')[2].rstrip(']')}"))
+        added = number(units.mass.of(carried_kg), weight.digits)
+        plus = f" + {added}" if carried_kg else ""
+        pieces.append(LinePiece(f"{plus} {units.mass.symbol}"))
     else:
         where = (
             _STANDS[stand.trim]
@@ -73,8 +102,6 @@ def flight_pieces(inputs: Inputs, units: Units) -> list[LinePiece]:
     for name, row in FLIGHT.items():
         value = getattr(inputs, name)
         if name in ("advance_ratio", "mass_t") or not inputs.counts(row) or value == row.default:
-            continue
-        if stand is not None and row.in_place:
             continue
         form, falls = slider(name, units, aircraft), bool(row.below) and value < 0.0
         at = shown(row, value, units)
@@ -96,47 +123,124 @@ def flight_pieces(inputs: Inputs, units: Units) -> list[LinePiece]:
             control(stand.load, form, stand.value),
         ]
         pieces += [LinePiece(unit)] if unit else []
-        if stand.shaft_tilt_deg and stand.trim != "free-rotor":
-            form = stand_slider("shaft_tilt_deg", inputs)
-            pieces += [
-                LinePiece(", tilt "),
-                control("shaft_tilt_deg", form, stand.shaft_tilt_deg),
-                LinePiece("°"),
-            ]
+        pieces += _test_pieces(stand)
+    pieces += [
+        LinePiece(f", {units.in_words(row, value)}")
+        for name, row in HELD.items()
+        if inputs.counts(row) and (value := getattr(inputs, name)) is not None
+    ]
     return pieces
+
+
+def _test_pieces(stand: StandInputs) -> list[LinePiece]:
+    """What a test gives beside its load, where it is not as usual: `, tilt 5.0°, tip Mach 0.620`."""
+    usual = StandInputs().with_trim(stand.trim)
+    named = {"shaft_tilt_deg": (", tilt ", "°")}
+    if stand.flapping == "free":
+        named["cyclic_1c_deg"] = (", θ1c ", "°")
+        named["cyclic_1s_deg"] = (", θ1s ", "°")
+    named["tip_mach"] = (", tip Mach ", "")
+    named["density"] = (", air ", " kg/m³")
+    if stand.trim == "free-rotor":
+        # Its tilt is found.
+        del named["shaft_tilt_deg"]
+    pieces = list[LinePiece]()
+    for name, (before, after) in named.items():
+        value = getattr(stand, name)
+        if not value:
+            continue
+        pieces += [LinePiece(before), control(name, STAND_SLIDERS[name], value)]
+        pieces += [LinePiece(after)] if after else []
+    if stand.flapping == "hub-moments":
+        roll = number(stand.hub_roll_nm)
+        pitch = number(stand.hub_pitch_nm)
+        pieces.append(LinePiece(f", hub moments {roll}/{pitch} N m"))
+    elif stand.flapping != usual.flapping:
+        pieces.append(LinePiece(f", flapping {stand.flapping}"))
+    return pieces
+
+
+def blade_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
+    """The twist and all else that decides the power, without an actuator: ` with twist −12.0 °/R, no tip loss,`."""
+    twist = twist_pieces(inputs, design)
+    models = model_pieces(inputs)
+    return [*twist, *models, LinePiece(",")] if models else twist
+
+
+def carrying_pieces(
+    inputs: Inputs, design: Design | None, actuator: Sequence[LinePiece]
+) -> list[LinePiece]:
+    """The same of a blade with an actuator: `, twist as built, with MFC P1 at 77 % voltage,`.
+
+    `actuator`: the words for it.
+    """
+    law = _law_pieces(inputs, design)
+    noun = "" if _is_named(inputs) and law[0].text != AS_BUILT else "twist "
+    pieces = [LinePiece(f", {noun}"), *law, LinePiece(","), *actuator]
+    return [*pieces, *_waves(design), *model_pieces(inputs), LinePiece(",")]
 
 
 def twist_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
     """The built-in twist: the turns and bends of its law, or the name of one that has none. `design`: of the inputs,
     None where they mean none."""
+    pieces = _law_pieces(inputs, design)
+    if pieces[0].text == AS_BUILT and len(pieces) == 1:
+        before = " with its twist "
+    elif _is_named(inputs):
+        before = " with "
+    else:
+        before = " with twist "
+    if pieces[0].control is None:
+        joined = replace(pieces[0], text=f"{before}{pieces[0].text}")
+        return [joined, *pieces[1:], *_waves(design)]
+    return [LinePiece(before), *pieces, *_waves(design)]
+
+
+def _law_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
+    """The numbers of the twist law: `−14.0/−8.0 °/R, break 0.50 R`; of a law without, its name."""
     law = LAWS[inputs.law]
-    turns = [
-        (name, one) for name, one in zip(law.inputs, law.parameters, strict=True) if one.angular
-    ]
-    if inputs.law in NOT_ALWAYS or not turns:
-        name = law.title.lower() if design is None else twist_name(design)
-        return [LinePiece(f" with {'its twist ' if name == AS_BUILT else ''}{name}")]
+    rows = list(zip(law.inputs, law.parameters, strict=True))
+    turns = [(name, one) for name, one in rows if one.angular]
+    if _is_named(inputs):
+        return [LinePiece(law.title.lower() if design is None else _design_name(design))]
     built = inputs.law == "builtin"
     if built and not any(getattr(inputs, name) for name, _ in turns):
         outer = turns[-1][0]
-        return [
-            LinePiece(" with its twist "),
-            control(outer, _form(outer), 0.0, AS_BUILT),
-            *_waves(design),
-        ]
-    pieces = [
-        LinePiece(" with twist "),
-        *([LinePiece(f"{AS_BUILT}, ", WIDE), LinePiece("Δ ")] if built else []),
-    ]
+        return [control(outer, _form(outer), 0.0, AS_BUILT)]
+    pieces = [LinePiece(f"{AS_BUILT}, ", WIDE), LinePiece("Δ ")] if built else []
     last = {one.shown_unit: name for name, one in turns}
+    alike = len(last) == 1
     for k, (name, one) in enumerate(turns):
-        pieces += [LinePiece(", ")] if k else []
+        # Rates from root to tip need no names.
+        if k:
+            pieces.append(LinePiece("/" if alike else ", "))
         pieces.append(control(name, _form(name), getattr(inputs, name), sign=built))
-        place = one.short.removeprefix("Δ ").lower()
         space = "" if one.shown_unit == "°" else "\u00a0"
         unit = f"{space}{one.shown_unit}" if last[one.shown_unit] == name else ""
-        pieces.append(LinePiece(f"{unit} {place}".rstrip()))
-    return pieces + _waves(design)
+        place = "" if alike else one.short.lower()
+        pieces += [LinePiece(words)] if (words := f"{unit} {place}".rstrip()) else []
+    return pieces + _break_pieces(inputs, [name for name, one in rows if not one.angular])
+
+
+def _break_pieces(inputs: Inputs, names: Sequence[str]) -> list[LinePiece]:
+    """Where the segments of a law meet: `, breaks 0.40/0.75 R`."""
+    pieces = list[LinePiece]()
+    for name in names:
+        before = f", break{'s' if len(names) > 1 else ''} "
+        pieces.append(LinePiece("/" if pieces else before))
+        pieces.append(control(name, _form(name), getattr(inputs, name)))
+    return [*pieces, LinePiece(" R")] if pieces else []
+
+
+def _is_named(inputs: Inputs) -> bool:
+    """Whether the twist law has no number to drag, so that the line has its name."""
+    law = LAWS[inputs.law]
+    return inputs.law in NOT_ALWAYS or not any(one.angular for one in law.parameters)
+
+
+def _design_name(design: Design) -> str:
+    """The name of a twist without its harmonics, which the line has in words of its own."""
+    return twist_name(replace(design, active_twist=None, pitch_per_rev=()))
 
 
 def _form(name: str) -> Slider:
@@ -146,8 +250,89 @@ def _form(name: str) -> Slider:
 
 
 def _waves(design: Design | None) -> list[LinePiece]:
-    """Active twist and root pitch at harmonics."""
-    return [] if design is None else [LinePiece(f", {wave}") for wave in wave_names(design)]
+    """Active twist and root pitch at harmonics: `, 3/rev twist 1.00° at 180°`."""
+    if design is None:
+        return []
+    given = "" if design.active_twist is None or design.linear_active_twist else " of given shape"
+    twists = [f", {_wave('twist', wave)}{given}" for wave in design.active_waves]
+    pitches = [f", {_wave('pitch', wave)}" for wave in design.pitch_per_rev]
+    return [LinePiece(words) for words in (*twists, *pitches)]
+
+
+def _wave(kind: str, wave: Harmonic) -> str:
+    amplitude = number(math.degrees(wave.amplitude), 2)
+    phase = number(math.degrees(wave.phase))
+    return f"{wave.per_rev}/rev {kind} {amplitude}° at {phase}°"
+
+
+def model_pieces(inputs: Inputs) -> list[LinePiece]:
+    """How the answer is computed, where it is not as usual: `, no tip loss, inflow: Drees`."""
+    effects = _effect_words(inputs)
+    if len(effects) <= _MOST_NAMED:
+        pieces = [LinePiece(f", {one}", MODELS) for one in effects]
+    else:
+        # Each one more or less is another number.
+        title = f"{listed(effects).capitalize()}."
+        pieces = [LinePiece(f", {len(effects)} effects switched", MODELS, title=title)]
+    preset = [] if inputs.preset == PRESETS[0] else [f"preset {inputs.preset}"]
+    others = [*preset, *_inflow_words(inputs), *_grid_words(inputs)]
+    return pieces + [LinePiece(f", {one}", MODELS) for one in others]
+
+
+def _effect_words(inputs: Inputs) -> list[str]:
+    """Effects that are not as the preset has them: `no tip loss`."""
+    usual = preset_models(inputs.preset)
+    words = list[str]()
+    for name, switch in SWITCHES.items():
+        if getattr(inputs, name) != getattr(usual, name):
+            words.append(f"{'' if getattr(inputs, name) else 'no '}{switch.title.lower()}")
+    return words + [QUANTITIES[name].short for name in OPTIONS if getattr(inputs, name)]
+
+
+def _inflow_words(inputs: Inputs) -> list[str]:
+    """Choices of the inflow that are not the preset's: `inflow: Drees`."""
+    usual = preset_models(inputs.preset)
+    words = list[str]()
+    for name, titles in INFLOW_MENUS.items():
+        chosen = getattr(inputs, name)
+        if chosen != getattr(usual, name):
+            words.append(f"{QUANTITIES[name].title.lower()}: {titles[chosen]}")
+    return words
+
+
+def _grid_words(inputs: Inputs) -> list[str]:
+    """Elements, azimuths and airfoils where a design asks for its own: `24 elements`."""
+    words = list[str]()
+    for name in ("elements", "azimuths"):
+        count = getattr(inputs, name)
+        if count is not None:
+            words.append(f"{count} {name}")
+    if inputs.law in NOT_ALWAYS and inputs.airfoils:
+        words.append(f"airfoils {shorten(inputs.airfoils, 40)}")
+    return words
+
+
+def carried_layout(carried: Carried) -> str:
+    """As `layout_words`, of an actuator that a design carries."""
+    actuator = read_actuator(carried.spec)
+    return layout_words(actuator.id, actuator.placement, actuator.host, crossed=actuator.crossed)
+
+
+def layout_words(id: str, placement: Placement, host: HostBlade, *, crossed: bool) -> str:
+    """How an actuator is laid out, where it is not as it comes: ` (4 plies, 0.30…0.90 R)`; else empty."""
+    usual = default_placement()
+    words = list[str]()
+    if placement.plies != usual.plies:
+        words.append(find_actuator(id).count(placement))
+    if placement.span != usual.span:
+        words.append("{:.2f}…{:.2f} R".format(*placement.span))
+    if placement.chord != usual.chord:
+        words.append("{:.2f}…{:.2f} c".format(*placement.chord))
+    if host.kind == "new":
+        words.append(host.label)
+    if crossed:
+        words.append("crossed")
+    return f" ({', '.join(words)})" if words else ""
 
 
 def power_pieces(
@@ -160,7 +345,7 @@ def power_pieces(
         within, drag = "", number(solution.lift_and_drag[1])
         if band is not None and band.power:
             within = f" ± {number(ratio * band.band / band.power, 1)}"
-        title = band.sentence if band else ""
+        title = _band_sentence(band, units)
         verb, shown = (
             LinePiece(" has lift-to-drag ", "verb"),
             LinePiece(number(ratio, 1), "total-power", title=title),
@@ -169,11 +354,11 @@ def power_pieces(
             verb,
             shown,
             LinePiece(within, "within", stale=not known),
-            LinePiece(f", drag {drag} N", WIDE),
+            LinePiece(f", drag {drag} N", BESIDE),
         ]
     total = number(abs(unit.of(power.total)), fineness(power, units))
     driven = power.total < 0.0 and any(digit in total for digit in "123456789")
-    shown = LinePiece(total, "total-power", title="" if band is None else band.sentence)
+    shown = LinePiece(total, "total-power", title=_band_sentence(band, units))
     pieces = [LinePiece(" takes " if driven else " needs ", "verb"), shown]
     if band is not None and band.of == "Power":
         within = unit.of(band.band)
@@ -189,6 +374,14 @@ def power_pieces(
     return [*pieces, LinePiece(f" {unit.symbol}{' from the air' if driven else ''}", "verb")]
 
 
+def _band_sentence(band: Doubt | None, units: Units) -> str:
+    """The power with its band and what the design saves; empty without a band."""
+    if band is None:
+        return ""
+    unit = units.power[0]
+    return band.in_words("It", (unit.symbol, unit.size))
+
+
 def coverage_words() -> str:
     """How often a measured power lies in the band, of rotors that had no part in its size."""
     part, of = (
@@ -202,6 +395,7 @@ def change_pieces(
     change: float,
     band: float | None,
     than: str,
+    reference: float,
     units: Units,
     known: bool = True,
     note: str = "",
@@ -209,13 +403,15 @@ def change_pieces(
     sourced: bool = True,
     built: bool = True,
 ) -> list[LinePiece]:
-    """By how much [W] that is more or less than `than`, its band, and whether its sign is known. `sourced`: as of
-    `sureness`; `built`: whether it could be, or less power is not green."""
+    """By how much [W] that is more or less than `than`, which needs `reference` [W], its band, and whether its sign is
+    known. `sourced`: as of `sureness`; `built`: whether it could be, or less power is not green."""
+    than = f"{than} ({total_size(reference, units)})"
     size, beside = change_sizes(change, band, units)
     if band is None and not any(digit in size for digit in "123456789"):
         return [LinePiece(f": no change from {than}", "against")]
     word = "" if band is None else sureness(change, band, sourced=sourced)
-    sure = "" if band is None else sure_words(change, band, sourced=sourced)
+    said = "" if band is None else sure_words(change, band, sourced=sourced)
+    cap = said.removeprefix(word)
     kind: Kind = (
         "" if word in ("", "unclear") else "bad" if change > 0.0 else "good" if built else ""
     )
@@ -223,15 +419,23 @@ def change_pieces(
         LinePiece(": ", "sign"),
         LinePiece(size, "moved", kind),
         LinePiece(beside, "sure-band", kind, not known),
-        LinePiece(f" {units.power[0].symbol}", WIDE, kind),
+        LinePiece(f" {units.power[0].symbol}", BESIDE, kind),
         LinePiece(" more" if change > 0.0 else " less", "more", kind),
         LinePiece(f" than {than}{note}", "against"),
-        *([LinePiece(f", {sure}", "sure", "", not known)] if sure else []),
+        *([LinePiece(f", {word}", "sure", "", not known, cap.strip(", "))] if word else []),
+        *([LinePiece(cap, "cap", "", not known)] if cap else []),
     ]
 
 
 def over_pieces(names: Sequence[str]) -> list[LinePiece]:
-    return [LinePiece(f"; over its limits in {listed(names)}", "exceeded", "bad")] if names else []
+    """The limits that are exceeded: `; over its limits in voltage and mass`; of many, how many."""
+    if not names:
+        return []
+    said = f"over its limits in {listed(names)}"
+    if len(names) <= _MOST_NAMED:
+        return [LinePiece(f"; {said}", "exceeded", "bad")]
+    title = f"{said[0].upper()}{said[1:]}."
+    return [LinePiece(f"; over {len(names)} limits", "exceeded", "bad", title=title)]
 
 
 def plain(pieces: Sequence[LinePiece], note: str = "") -> str:
@@ -243,14 +447,8 @@ def sentence(
     solution: Solution, units: Units, reference: Solution | None = None, band: Doubt | None = None
 ) -> str:
     """The line of a solution without a page. `band`: of its power and of the change from the reference."""
-    design, inputs = solution.design, inputs_of(solution.design)
-    carried = design.rotor.blade.carried
-    blade = (
-        twist_pieces(inputs, design)
-        if carried is None
-        else [LinePiece(f" with {carried.name}"), *_waves(design)]
-    )
-    pieces = [*flight_pieces(inputs, units), *blade, *power_pieces(solution, units, band)]
+    design = solution.design
+    pieces = [*design_pieces(design, units), *power_pieces(solution, units, band)]
     if reference is not None and reference.design != design:
         within = None if band is None else band.change_band
         change = solution.power.total - reference.power.total
@@ -258,8 +456,19 @@ def sentence(
             than_words(design, reference.design, pinned=False),
             band is None or band.sourced,
         )
-        pieces += change_pieces(change, within, than, units, sourced=sourced)
+        pieces += change_pieces(change, within, than, reference.power.total, units, sourced=sourced)
     return plain(pieces)
+
+
+def design_pieces(design: Design, units: Units) -> list[LinePiece]:
+    """All that decides the power of a design: its flight, its blade, its actuator, its models."""
+    inputs = inputs_of(design)
+    carried = design.rotor.blade.carried
+    if carried is None:
+        return flight_pieces(inputs, units) + blade_pieces(inputs, design)
+    words = f" with {carried.name}{carried_layout(carried)}"
+    flight = flight_pieces(inputs, units, carried.aircraft_kg)
+    return flight + carrying_pieces(inputs, design.bare, [LinePiece(words)])
 
 
 def than_words(design: Design, reference: Design, pinned: bool) -> str:

@@ -18,7 +18,7 @@ from rotor.actuator import InstalledActuator, Verdict
 from rotor.actuator.verdict import flight_text
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.markup import Content, Markup, tag
-from rotor.trim.doubt import MOST_OF_SMALL, Doubt, rounded_pair, sure_words, sureness
+from rotor.trim.doubt import ESTIMATED, MOST_OF_SMALL, Doubt, rounded_pair, sure_words, sureness
 from rotor.trim.solution import ElasticTwist
 
 PART_TITLES = {
@@ -76,7 +76,7 @@ def _panel(
             "div.rx-line.rx-base",
             tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
             tag("span.rx-dim", units.other_watts(power.total)),
-            tag("span.rx-push", change(power, reference, band), title=tip("change")),
+            tag("span.rx-push", change(power, reference, band)),
         ),
         tag("div.rx-line.rx-dim", words, title=tip("change")),
         table,
@@ -121,8 +121,13 @@ def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None
     percent = 100.0 * (power.total / reference.total - 1.0)
     words = "" if band is None else band.saving_words
     words = words or f"{number(percent, 1, sign=True)} %"
+    # There is room for the word alone; why it is not "sure" stands on the line, and here in the tooltip.
+    words, capped, _ = words.partition(f", {ESTIMATED}")
+    title = f"{tip('change')} Likely, {ESTIMATED}." if capped else tip("change")
     kind = change_kind(percent, band and band.sureness)
-    return tag("span.rx-change", words, class_=kind and f"rx-{kind}", data_explorer="change")
+    return tag(
+        "span.rx-change", words, class_=kind and f"rx-{kind}", title=title, data_explorer="change"
+    )
 
 
 def change_kind(change: float, word: str | None) -> Literal["", "less", "more"]:
@@ -160,7 +165,12 @@ def fineness(power: PowerBudget, units: Units = SI) -> int:
 
 def total_words(total: float, units: Units = SI) -> str:
     """Total power [W] with the decimals of the line: that of an optimum has none that its band does not allow."""
-    return units.watts(total, _fineness(total, units))
+    return f"{total_size(total, units)} {units.power[0].symbol}"
+
+
+def total_size(total: float, units: Units = SI) -> str:
+    """The same without its unit."""
+    return number(units.power[0].of(total), _fineness(total, units))
 
 
 def _fineness(total: float, units: Units) -> int:
@@ -309,9 +319,14 @@ def dash(colour: str, dashed: bool = False) -> Markup:
     return tag("span.rx-dash", style=f"background:{colour}")
 
 
-def faded(html: Markup) -> Markup:
-    """Markup that is out of date, greyed."""
-    return tag("div.rx-faded", html)
+def outdated(html: Markup) -> Markup:
+    """Markup of other inputs than those that are set, with the mark that `outdate` of `common.js` gives."""
+    return tag("div", html, data_stale=True, role="group", aria_description="out of date")
+
+
+def answers(html: Markup) -> Markup:
+    """Markup that is marked as a whole from the moment an input changes, until it is sent again."""
+    return tag("div", html, data_answers=True)
 
 
 def compared_power_panel(

@@ -5,7 +5,7 @@ import re
 from dataclasses import dataclass
 
 from explorer.model.stand import SHORT, airload_cases, as_measured, flight_powers, place_of
-from explorer.model.units import number
+from explorer.model.units import SI, Units, number
 from explorer.text.design_words import inflow_words, physics_words
 from explorer.text.glossary import SECTIONS, tip
 from rotor import Solution
@@ -21,7 +21,10 @@ from rotor.validation.trust import KINDS
 
 
 def status_panel(
-    solution: Solution | None, problem: str | None = None, pinned: Solution | None = None
+    solution: Solution | None,
+    problem: str | None = None,
+    pinned: Solution | None = None,
+    units: Units = SI,
 ) -> Markup:
     """A box of constant height: convergence, caveats, and the models used.
 
@@ -39,23 +42,24 @@ def status_panel(
         return _status("waiting", f"{compiling() or 'Computing the first trim'} …")
     caveats = [
         tag("div.rx-care", tag("span", "▲"), tag("span", text))
-        for text in cautions(solution, pinned)
+        for text in cautions(solution, pinned, units)
     ]
     count = f"{solution.passes} iteration{'' if solution.passes == 1 else 's'}"
     residual = f"Force residual < {tiny(solution.residual)} ", tag("i", "W"), f", {count}."
     text = tag("div", tag("span.rx-good", "●"), f" {solution.message} ", residual)
-    measured = tag("div.rx-small", validated(solution).sentence, data_explorer="measurement")
+    sentence = units.in_power_unit(validated(solution).sentence)
+    measured = tag("div.rx-small", sentence, data_explorer="measurement")
     return _status("converged", text, caveats, measured, provenance(solution))
 
 
-def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
+def cautions(solution: Solution, pinned: Solution | None, units: Units = SI) -> list[str]:
     """Caveats of a solution; with A pinned, those of both, and the other differences between the two."""
-    sentences = _own_cautions(solution)
+    sentences = _own_cautions(solution, units)
     if pinned is None:
         return sentences
     if not pinned.converged:
         return [f"A: {pinned.message}", *sentences]
-    other = _own_cautions(pinned)
+    other = _own_cautions(pinned, units)
     a, b = pinned.design, solution.design
     apart = []
     if a.condition != b.condition:
@@ -74,8 +78,8 @@ def cautions(solution: Solution, pinned: Solution | None) -> list[str]:
     ]
 
 
-def _own_cautions(solution: Solution) -> list[str]:
-    return [typographic(caveat.sentence) for caveat in solution.caveats]
+def _own_cautions(solution: Solution, units: Units) -> list[str]:
+    return [typographic(units.in_power_unit(caveat.sentence)) for caveat in solution.caveats]
 
 
 def tiny(value: float) -> str:
@@ -198,8 +202,7 @@ def _flown(solution: Solution) -> ValidationRecord | None:
             return ValidationRecord(
                 "measured in flight", f"Power was measured in {count}: {report}.{blade}{airloads}"
             )
-        percent = 100.0 * (solution.power.main_rotor / here.power - 1.0)
-        words = f"measured: {number(percent, 1, sign=True)} % ({here.case})"
+        words = f"measured: {number(100.0 * here.error(solution), 1, sign=True)} % ({here.case})"
         kilowatts = f"{number(solution.power.main_rotor / 1e3, 1)} kW, measured {number(here.power / 1e3, 1)} kW"
         return ValidationRecord(words, f"Main rotor: computed {kilowatts} ({report}).{airloads}")
     if cases and design.condition.stand is not None and not design.hovering:

@@ -56,7 +56,7 @@ def view(now: PageState) -> dict[str, Any]:
         "actuator.verdict": words.problem_panel(one.outcome),
         "actuator.bar": words.voltage_bar(installed.actuator),
         "actuator.now": words.now_panel(inputs, installed, now.inputs.twist_per_rev),
-        "actuator.numbers": words.fit_panel(installed, verdict),
+        "actuator.numbers": words.fit_panel(installed, verdict, now.units),
         "actuator.limits": words.limits_panel(verdict),
     } | form
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
-from explorer.model.units import number
+from explorer.model.units import SI, Units, number
 from explorer.picture.lifted_picture import drive_colour
 from explorer.text.readout import limit_words, mass_words
 from rotor.actuator.kind import Actuator, InstalledActuator, Limit
@@ -58,12 +58,12 @@ def now_panel(
     twist = tag("b", f"{number(tip, 2, sign=True)}°", data_explorer="actuator-twist")
     return tag(
         "div.rx",
-        tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP),
+        tag("div.rxa-now", twist, tag("span.rx-dim", words), title=TIP, data_answers=True),
         data_explorer="actuator-now",
     )
 
 
-def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
+def fit_panel(installed: InstalledActuator, verdict: Verdict | None, units: Units = SI) -> Markup:
     """What the actuator is on this blade: known at once, but for what the verdict needs."""
     rest = math.degrees(float(np.abs(installed.rest_shapes[:, -1]).sum()))
     facts = [
@@ -76,9 +76,10 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None) -> Markup:
             if verdict is None
             else [f"twist required {number(math.degrees(verdict.required), 2)}°"]
         ),
-        *([] if verdict is None else [f"slewing power {number(verdict.drive.slew_power)} W"]),
+        *([] if verdict is None else [f"slewing power {units.watts(verdict.drive.slew_power, 2)}"]),
     ]
-    return tag("div.rx.rx-dim.rx-small", f"{'; '.join(facts)}.", data_explorer="actuator-numbers")
+    words = f"{'; '.join(facts)}."
+    return tag("div.rx.rx-dim.rx-small", words, data_explorer="actuator-numbers", data_answers=True)
 
 
 def problem_panel(outcome: Outcome | None) -> Markup:
@@ -108,7 +109,8 @@ def limits_panel(verdict: Verdict | None) -> Markup:
         tag("div.rx-care", tag("span", "▲"), tag("span", caveat)) for caveat in verdict.caveats
     ]
     beyond = (more, *map(_limit, asked)) if asked else ()
-    return tag("div.rx.rxa-limits", map(_limit, own), beyond, good, cares, data_explorer="limits")
+    rows = map(_limit, own), beyond, good, cares
+    return tag("div.rx.rxa-limits", *rows, data_explorer="limits", data_answers=True)
 
 
 def _limit(limit: Limit) -> Markup:

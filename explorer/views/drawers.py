@@ -30,7 +30,7 @@ def details(now: PageState) -> dict[str, Any]:
     else:
         power = readout.compared_power_panel(solution, pinned, units, band)
         tables = power, readout.compared_trim_panel(solution, pinned)
-    power, trim = map(readout.faded, tables) if now.problem else tables
+    power, trim = map(readout.outdated, tables) if now.problem else tables
     return {"details.power": power, "details.trim": trim}
 
 
@@ -45,8 +45,9 @@ def trust(now: PageState) -> dict[str, Any]:
     if found is not None:
         models = now.answers.get(_model_questions(now)[0].calls[0]) if current else None
         rows = doubt_rows(found, now.units, models if isinstance(models, tuple) else ())
-        rows = rows if current else readout.faded(rows)
-    return {"trust.status": status_panel(state.solution, pinned=state.pinned), "trust.doubts": rows}
+        rows = rows if current else readout.outdated(rows)
+    status = status_panel(state.solution, pinned=state.pinned, units=now.units)
+    return {"trust.status": status, "trust.doubts": rows}
 
 
 def _model_questions(now: PageState) -> tuple[Questions, ...]:

@@ -1,27 +1,28 @@
 """The line on top of the page: in Explore and Optimise of the twist, in Actuate of the actuator."""
 
-import math
 from dataclasses import replace
 from typing import Any
 
-from explorer.model.units import number
 from explorer.parts.results import LinePart, LinePiece, LineStatus
 from explorer.text.line import (
     WIDE,
+    blade_pieces,
+    carrying_pieces,
     change_pieces,
     control,
     flight_pieces,
+    layout_words,
     over_pieces,
     plain,
     power_pieces,
     than_words,
-    twist_pieces,
 )
 from explorer.text.readout import fineness, limit_words
 from explorer.views.actuated import (
     ActuatedBlade,
     actuated_blade,
     against_words,
+    compared_trims,
     drive_power,
     flight_doubt,
     in_actuate,
@@ -47,8 +48,12 @@ def line(now: PageState) -> LinePart:
     """What the hand has set, and the answer of the last trim; while there is none of it, why."""
     one, state, units = actuated_blade(now) if in_actuate(now.ui) else None, now.state, now.units
     problem = units.in_sliders(now.problem, 0.0 if one is None else one.mass)
-    pieces = flight_pieces(now.shown, units)
-    pieces += twist_pieces(now.shown, now.preview or now.sliders) if one is None else _actuator(one)
+    design = now.preview or now.sliders
+    if one is None:
+        pieces = flight_pieces(now.shown, units) + blade_pieces(now.shown, design)
+    else:
+        pieces = flight_pieces(now.shown, units, one.mass)
+        pieces += carrying_pieces(now.shown, design, _actuator(one))
     if problem or state is None:
         words = (
             f" has no trim: {problem.removeprefix('Not trimmed: ').rstrip('.')}"
@@ -73,7 +78,9 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     )
     late = state == "schedule" and one.flight is None
     forbidden = one.installed.actuator.forbidden
-    pieces = [LinePiece(f" with {one.name} ")]
+    placement, host = one.inputs.mounting
+    layout = layout_words(one.inputs.actuator, placement, host, crossed=one.inputs.crossed)
+    pieces = [LinePiece(f" with {one.name}{layout} ")]
     pieces += [LinePiece(f"({forbidden}) ", "forbidden", "bad")] if forbidden else []
     pieces += [LinePiece(word, "state" if late else "", stale=late), LinePiece(" ")]
     for k, drive in enumerate(drives):
@@ -82,16 +89,7 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
         pieces.append(
             control(DRIVES[k], replace(_DRIVE, label=label, low=one.inputs.least_drive), drive)
         )
-    waves = [
-        f", {each.per_rev}/rev {number(math.degrees(each.amplitude), 2)}°"
-        for each in one.now.inputs.twist_per_rev
-    ]
-    return [
-        *pieces,
-        LinePiece("\u00a0%"),
-        LinePiece(f" {noun.lower()}", WIDE),
-        LinePiece("".join(waves)),
-    ]
+    return [*pieces, LinePiece("\u00a0%"), LinePiece(f" {noun.lower()}", WIDE)]
 
 
 def _flight_change(one: ActuatedBlade) -> list[LinePiece]:
@@ -114,7 +112,13 @@ def _flight_change(one: ActuatedBlade) -> list[LinePiece]:
     broken = () if one.verdict is None else one.verdict.broken
     over = over_pieces([limit_words(each.name) for each in broken if each.name not in reach])
     how = {"sourced": one.sourced, "built": one.built}
-    return change_pieces(here.power, here.band, than, now.units, note=note, **how) + over
+    _, other = now.of(compared_trims) or (None, None)
+    if other is None:
+        return over
+    return (
+        change_pieces(here.power, here.band, than, other.power.total, now.units, note=note, **how)
+        + over
+    )
 
 
 def _change(now: PageState) -> list[LinePiece]:
@@ -130,8 +134,14 @@ def _change(now: PageState) -> list[LinePiece]:
     band, known = now.latest(shown_doubt(now)[0])
     within = None if band is None else band.change_band
     change = solution.power.total - reference.power.total
+    than = than_words(solution.design, reference.design, pinned)
+    # Twist that follows the azimuth takes an actuator.
+    carried = solution.design.rotor.blade.carried is not None
+    built = carried or solution.design.pitch_waves in ((), reference.design.pitch_waves)
+    note = "" if built else " (no actuator on board makes this)"
+    other = reference.power.total
     return change_pieces(
-        change, within, than_words(solution.design, reference.design, pinned), now.units, known
+        change, within, than, other, now.units, known=known, note=note, built=built
     )
 
 

@@ -122,25 +122,38 @@ def _stage(now: PageState) -> SupposePart | None:
     one = actuated_blade(now) if now.hand.on_stage else None
     if one is None:
         return None
-    if one.line is None or one.over_flight is None:
+    if one.line is None or one.verdict is None or one.over_flight is None:
         none = "" if one.mass else f"{one.name} adds no mass, so no break-even mass applies."
         return SupposePart(none or no_verdict(now) or "Computing break-even…")
-    units, line, own = now.units, one.line, _put(math.degrees(one.range), one.mass)
-    degrees, mass = now.hand.place or own
-    twist, built = math.radians(degrees), True
-    saving, band = line.net(twist, mass), line.band(twist, mass)
-    if (degrees, mass) == own:
-        saving, band, built = -one.over_flight.power, one.over_flight.band, one.over_flight.built
-    most, least = line.mass_allowed(twist), line.twist_for(mass)
+    units = now.units
+    line = one.line
+    own = _put(math.degrees(one.range), one.mass)
+    place = now.hand.place or own
+    if place == own:
+        # A place has few digits: what stands here is what the card says of the actuator itself.
+        twist = one.range
+        mass = one.mass
+        saving = -one.over_flight.power
+        band = one.over_flight.band
+        built = one.over_flight.built
+        most = one.verdict.mass_allowed or 0.0
+    else:
+        twist = math.radians(place[0])
+        mass = place[1]
+        saving = line.net(twist, mass)
+        band = line.band(twist, mass)
+        built = True
+        most = line.mass_allowed(twist)
+    least = line.twist_for(mass)
     notes = [_allowed(line, twist, most)]
     notes += [] if least is None else [f"with this mass, above {number(math.degrees(least), 1)}°"]
     gives = needs_words(saving, band, units, one.sourced)
     return SupposePart(
-        words=f"{number(degrees, 1)}° for {kilograms(mass)} {gives} over the mission",
+        words=f"{number(math.degrees(twist), 1)}° for {kilograms(mass)} {gives} over the mission",
         kind=PowerChange(-saving, band, built).kind,
         note=f"{'; '.join(notes)}.",
         chart=drawn_chart(mass_chart(line, _verdicts(one), units)),
-        at=(degrees, mass),
+        at=place,
     )
 
 

@@ -64,10 +64,11 @@ def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart
 
 def status(state: SessionState, units: Units) -> LineStatus:
     """The end of the line: trimmed, or engines, separated area, number of caveats; the title: how well validated."""
-    reasons = cautions(state.solution, state.pinned)
+    reasons = cautions(state.solution, state.pinned, units)
     stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
     record = validated(state.solution)
-    title = " ".join([*reasons, record.sentence])
+    measured = units.in_power_unit(record.sentence)
+    title = " ".join([*reasons, measured])
     power = state.solution.power
     if power.total < 0.0:
         words = (
@@ -85,7 +86,7 @@ def status(state: SessionState, units: Units) -> LineStatus:
     elif reasons:
         words = "1 note" if len(reasons) == 1 else f"{len(reasons)} notes"
     else:
-        title = f"{state.solution.message} {record.sentence} Click to see how far to trust it."
+        title = f"{state.solution.message} {measured} Click to see how far to trust it."
         return LineStatus("converged", "trimmed", title)
     return LineStatus("care", words, title)
 

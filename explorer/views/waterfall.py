@@ -168,7 +168,7 @@ def waterfall(now: PageState) -> dict[str, Any]:
     return {
         "details.waterfall": drawn
         if not steps or (current and not now.problem)
-        else readout.faded(drawn)
+        else readout.outdated(drawn)
     }
 
 

@@ -1,7 +1,7 @@
 // @ts-check
 // The cards on the stage: power, vibration, quantity on the disk.
 (() => {
-  const {text, write, closest, paced, drag} = Common, {part} = RX, page = document.documentElement;
+  const {text, write, staleMark, outdate, closest, paced, drag} = Common, {part} = RX, page = document.documentElement;
 
   RX.paint('power', power => {
     const card = part('power'), {parts} = power;
@@ -18,10 +18,12 @@
       : `<u style="left:${100 * (below + power.ideal) / total}%" title="${text(power.ideal_title)}"></u>`;
     const key = parts.map(one => `<div style="--c:var(--rx-${one.part})" title="${text(one.title)}">
       <dt>${text(one.name)}</dt><dd class="rxf-num" data-between>${text(one.value)}</dd></div>`).join('');
-    card.innerHTML = `<div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
+    card.innerHTML = `<div data-answers>
+      <div class="rxf-parts" role="button" tabindex="0" data-do="drawer" data-value="details"
         title="Power and trim in detail">
-        <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div>
-      <div class="rxf-why rxf-num" data-explorer="why" title="${text(power.why)}" ${power.why ? '' : 'hidden'}></div>`;
+        <div>${bars}${over || ''}${ideal}</div><dl>${key}</dl></div></div>
+      <div class="rxf-why rxf-num" data-answers data-explorer="why" title="${text(power.why)}"
+        ${power.why ? '' : 'hidden'}></div>`;
     // What has no room is left out clause by clause, never cut within one: the tooltip has it all.
     const why = card.querySelector('.rxf-why');
     const said = power.why.replace(/ ± | (?=k?W|hp)/g, one => one.replaceAll(' ', '\u00a0'));
@@ -33,8 +35,6 @@
       why.textContent = `${clauses.join('; ')}.`;
     }
   });
-  RX.paint('line', ({problem}) => part('power').parentElement.toggleAttribute('data-faded', Boolean(problem)));
-
   // What the actuator moves, costs and gives beside the line; where there is little room, in one sentence.
   RX.paint(['assessed', 'line'], (one, line) => {
     const card = part('verdict'), shown = Boolean(one) && !line?.problem;
@@ -125,7 +125,7 @@
   RX.price = name => {
     const {lines, stale, press} = RX.state.prices?.[name] ?? {lines: [], stale: false, press: ''};
     const said = lines.map(words => `<span class="rxf-num">${text(words)}</span>`).join('');
-    return `<span class="rxf-price ${stale ? 'rxf-stale' : ''}">${said}</span>${press
+    return `<span class="rxf-price"${staleMark(stale)}>${said}</span>${press
       && `<button class="rxf-push" data-do="unstall">${text(press)}</button>`}`;
   };
   const low = name => text(name).replace(/λi|_n|cn$/g, at => ({'λi': 'λᵢ', _n: 'ₙ', cn: 'cₙ'})[at] ?? at);
@@ -138,7 +138,7 @@
     write(menu, field.fields.map(name => `<option value="${text(name)}">${low(name)}</option>`).join(''));
     if (menu.value !== field.field) menu.value = field.field;
     part('unit').textContent = field.unit.replace(/^, /, '');  // What follows a unit stands alone where there is none.
-    scale.className = field.faded ? 'rxf-faded' : '';
+    outdate(scale, field.stale);
     const other = field.fitted ? 'the usual colour range (Shift+C)' : 'colours fitted to the data (C)';
     scale.title = `Double click: ${other}`;
     write(scale, Charts.bar(field.colours, field.ticks, field.beyond));

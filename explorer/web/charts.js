@@ -1,18 +1,18 @@
 // @ts-check
 // The strip below the scene, and the twist curve that can be dragged.
 (() => {
-  const {text, clamp, write, closest, paced, drag, scale: grown} = Common, {part} = RX;
+  const {text, clamp, write, outdate, closest, paced, drag, scale: grown} = Common, {part} = RX;
   // Where a chart is so narrow that its heading would be cut.
   const SHORT = {power: 'Power', alpha: 'α'};
   const whole = new Set();  // Charts that show all of their y, by name.
-  function drawChart(element, {name, kind, faded, chart: drawn, speeds}) {
+  function drawChart(element, {name, kind, stale, chart: drawn, speeds}) {
     const by = grown(), width = Math.max((element.clientWidth - 32) / by, 60);
     const tight = element.toggleAttribute('data-tight', width < 260);
     const y = {...drawn.y, ...whole.has(name) && drawn.y.whole};
     const chart = {...drawn, y, kind, speeds}, {title} = drawn;
     const height = Math.max((element.clientHeight - 18) / by - 20, 40);
     const short = {title: SHORT[name] || title, y: {...y, label: y.label.replace(/^both /, '')}};
-    element.toggleAttribute('data-faded', faded);
+    outdate(element, stale);
     element.dataset.name = name;
     if (element.parentElement.clientHeight < RX.folded) return Charts.spark(element, {...chart, ...short});
     const scale = y.whole && `<button data-page="scale" aria-pressed="${whole.has(name)}"
@@ -96,7 +96,7 @@
       const number = way ? `<b ${way === 'up' ? 'class="rxf-good"' : ''}>${text(value)}</b>${text(unit)}` : text(value);
       write(place, worth ? `${arrows[k]}<span>${number}</span>` : '');
       if (!worth) return;
-      place.toggleAttribute('data-stale', worth.stale);
+      outdate(place, worth.stale);
       place.title = worth.sentence;
     });
   });

@@ -40,6 +40,15 @@ const Common = (() => {
   // HTML into an element that nobody else fills, unless it has it already: then its controls stay the same ones.
   const write = (element, html) => { if (element.written !== html) element.innerHTML = element.written = html; };
 
+  // What belongs to other inputs than those that are set stays, with this mark, until its own comes.
+  const STALE = 'out of date';
+  const staleMark = stale => stale ? ` data-stale aria-description="${STALE}"` : '';
+  function outdate(element, stale) {
+    element.toggleAttribute('data-stale', Boolean(stale));
+    if (stale) element.setAttribute('aria-description', STALE);
+    else element.removeAttribute('aria-description');
+  }
+
   // How large type, cards and charts are: they grow with a window larger than that of a desk.
   const scale = () => clamp(Math.min(innerWidth / 1650, innerHeight / 940), 1, 1.5);
   const grow = () => page.style.setProperty('--rx-type', scale().toFixed(3));
@@ -111,7 +120,7 @@ const Common = (() => {
   }
 
   return {
-    DEGREE, text, clamp, lerp, distance, turned, fixed, signed, roundedPair, trace, write, calm, closest, scale, soon, paced, drag,
-    viewer, node, setPose, project, follow,
+    DEGREE, text, clamp, lerp, distance, turned, fixed, signed, roundedPair, trace, write, staleMark, outdate, calm,
+    closest, scale, soon, paced, drag, viewer, node, setPose, project, follow,
   };
 })();

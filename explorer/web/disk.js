@@ -46,7 +46,9 @@
       return vec2(psi / TURN * rxGrid.y, clamp((r - rxGrid.z) / (1. - rxGrid.z), 0., 1.) * (rxGrid.x - 1.));
     }
     vec4 rxRead(float r, float psi) { return texture2D(rxNumbers, (rxPlace(r, psi) + .5) / rxGrid.yx) * 255.; }
-    float rxReadPast(float r, float psi) { return texture2D(rxPast, (rxPlace(r, psi) + .5) / rxGrid.yx).r * 255. - 128.; }
+    float rxReadPast(float r, float psi) {
+      return texture2D(rxPast, (rxPlace(r, psi) + .5) / rxGrid.yx).r * 255. - 128.;
+    }
     // Of the four numbers about a place those that exist, and how much of the place they fill.
     vec2 rxPresent(float r, float psi) {
       vec2 place = rxPlace(r, psi), corner = floor(place), share = place - corner, sum = vec2(0.);
@@ -118,7 +120,8 @@
   function colour({material}, disk) {
     // The picture that the node has by itself gives the class of textures.
     if (!material?.map || !disk.numbers || !disk.ink) return;
-    const {uniforms, numbers: {grid, clear, absent, reverse, texts, past, void: rxVoid}, ink} = disk, [rows, columns] = grid;
+    const {uniforms, numbers: {grid, clear, absent, reverse, texts, past, void: rxVoid}, ink} = disk;
+    const [rows, columns] = grid;
     if (disk.changed) {
       disk.changed = false;
       uniforms.rxNumbers ??= {value: texture(material.map, columns, rows)};

@@ -1,7 +1,7 @@
 // @ts-check
 // Actuate: tip twist over a flight that is scrubbed or played, and what the actuator earns.
 (() => {
-  const {text, clamp, lerp, write, closest, paced, drag} = Common, {part} = RX;
+  const {text, clamp, lerp, write, outdate, closest, paced, drag} = Common, {part} = RX;
   const card = part('fly'), earns = part('earns');
   const WHOLE = 14000, SEND = 70, LATER = SEND + 80;  // [ms] A played flight; between two messages; after the last.
   const degrees = value => `${Common.signed(value, 2)}°`;
@@ -79,10 +79,10 @@
     const states = flight.states.map(([name, words]) => `<button data-do="state" data-value="${name}"
       aria-label="Actuator ${text(words)}" aria-pressed="${name === flight.state}"
       title="${STATES[name]}">${text(words)}</button>`);
-    write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-explorer="tip-twist"></b>
+    write(card, `<div class="rxf-head"><b>Tip twist</b><b class="rxf-num" data-answers data-explorer="tip-twist"></b>
         <span role="group" class="rxf-push" aria-label="Actuator">${states.join('')}</span></div>
-      <div class="rxf-num" data-words></div>
-      <svg role="img" aria-label="Twist at the tip over the flight"></svg>
+      <div class="rxf-num" data-answers data-words></div>
+      <svg data-answers role="img" aria-label="Twist at the tip over the flight"></svg>
       <div class="rxf-fly-bar"><button data-fly="play"></button>
         <input type="range" min="0" step="0.01" data-do="fly" aria-label="Flight"><div></div></div>`);
     drawButton();
@@ -90,7 +90,7 @@
     write(card.querySelector('.rxf-fly-bar > div'), flight.legs.map(([name, words], k) => `
       <button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}">
         <b>${text(name)}</b><small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></button>`).join(''));
-    card.toggleAttribute('data-faded', flight.kind !== 'ready');
+    outdate(card, flight.kind !== 'ready');
     card.dataset.kind = flight.kind;
     write(card.querySelector('[data-words]'),
       keys(flight).map(([key, words]) => `<span data-key="${key}">${text(words)}</span>`).join(''));
@@ -145,7 +145,7 @@
   RX.paint(['earns', 'suppose'], (balance, other) => {
     earns.hidden = !balance;
     if (!balance) { earns.innerHTML = ''; return; }
-    earns.toggleAttribute('data-faded', balance.kind !== 'ready' && !other);
+    outdate(earns, balance.kind !== 'ready' && !other);
     const begins = other && !earns.hasAttribute('data-suppose');
     earns.toggleAttribute('data-suppose', Boolean(other));
     if (begins && RX.small.matches && !listed) {  // Its drawing goes to the head of the sheet, whatever began it.
@@ -172,8 +172,8 @@
         <span class="rxf-dim">${text([unit, where].filter(Boolean).join(', '))}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"
           title="Try another actuator: drag its twist and mass">What would pay?</button></div>
-      <svg role="img" aria-label="Extra power by its parts"></svg>
-      <div class="rxf-earns-foot"><b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
+      <svg data-answers role="img" aria-label="Extra power by its parts"></svg>
+      <div class="rxf-earns-foot" data-answers><b class="rxf-push rxf-num" data-kind="${fuel_kind}" data-explorer="fuel"
           title="${text(fuel_note)}">${text(fuel)}</b></div>`;
     const {svg, width, height} = room();
     if (!bars.length || !svg || !width) return;
@@ -211,8 +211,9 @@
     const focused = earns.contains(document.activeElement) && document.activeElement?.matches('[data-supposed]');
     earns.innerHTML = `<div class="rxf-head"><b>What would pay</b>
         <button class="rxf-push" data-do="suppose" data-value="off">Extra power</button></div>
-      <div class="rxf-num rxf-supposed" data-kind="${kind}" data-explorer="supposed">${text(words)}</div><svg></svg>
-      <div class="rxf-earns-pays rxf-dim" data-explorer="pays" title="${text(note)}"
+      <div class="rxf-num rxf-supposed" data-answers data-kind="${kind}" data-explorer="supposed">${text(words)}</div>
+      <svg data-answers></svg>
+      <div class="rxf-earns-pays rxf-dim" data-answers data-explorer="pays" title="${text(note)}"
         ${note ? '' : 'hidden'}>${text(note)}</div>`;
     const {svg, width, height} = room();
     if (!chart || !svg || !width) return;

@@ -4,11 +4,11 @@
   const page = document.documentElement, place = RX.part('caption');
   const story = window.makeStory(place, RX.part('figures'), (what, value) => RX.send(what, value));
   const name = () => {
-    const {lecture, steps, bar} = RX.state, step = lecture && steps?.[lecture.at];
-    rotorWipe.name(`A: ${step?.a || bar?.pinned?.title || ''}`, step?.b ? `B: ${step.b}` : 'B');
+    const {lecture, bar} = RX.state;
+    rotorWipe.name(`A: ${lecture?.a || bar?.pinned?.title || ''}`, lecture?.b ? `B: ${lecture.b}` : 'B');
   };
   RX.paint('wipe', on => { name(); rotorWipe.set(on); });
-  RX.paint('steps', steps => { story.steps(steps); name(); });
+  RX.paint('steps', steps => story.steps(steps));
   RX.paint('lecture', step => {
     const begins = step && !page.hasAttribute('data-lecture');
     page.toggleAttribute('data-lecture', Boolean(step));

@@ -1,8 +1,10 @@
 // @ts-check
 // The line on top: what is said of the design, and its numbers, which are dragged as their sliders are.
 (() => {
-  const {text, clamp, write, closest, paced, drag} = Common, {part} = RX, place = part('line');
+  const {text, clamp, write, staleMark, outdate, closest, paced, drag} = Common, {part} = RX, place = part('line');
   const SPAN = 480;  // [px] from one end of a slider to the other, if its steps are not too fine for that.
+  // Parts that say of what; the others are its answer.
+  const NAMES = ['wide', 'models', 'state', 'forbidden', 'problem'];
   const LATER = 900;  // [ms] from the last move to the spoken line.
   /** @type {Map<string, RxLineControl>} */
   const controls = new Map();
@@ -17,13 +19,15 @@
         aria-label="${text(control.label)}" aria-valuemin="${control.low}" aria-valuemax="${control.high}"
         aria-valuenow="${control.value}" aria-valuetext="${text(control.words)}"
         title="${text(control.label)}: drag, or arrow keys"`;
-      const marks = name && `data-explorer="${name}" class="${kind && `rxf-${kind}`}" ${stale ? 'data-stale' : ''}
+      const answers = NAMES.includes(name) ? '' : 'data-answers';
+      const marks = name && `data-explorer="${name}" class="${kind && `rxf-${kind}`}" ${answers}${staleMark(stale)}
         ${title && `title="${text(title)}"`}`;
       return slides || marks ? `<span ${slides || marks}>${text(said)}</span>` : text(said);
     }).join('');
     write(place, `${words}${problem
       ? ' <button data-do="nearest" data-explorer="nearest">Nearest that trims</button>' : ''} <button
-      class="rxf-chip" data-do="drawer" data-value="trust" data-explorer="status" title="${text(status.title)}"
+      class="rxf-chip" data-answers data-do="drawer" data-value="trust" data-explorer="status"
+      title="${text(status.title)}"
       data-kind="${status.kind === 'care' ? 'converged' : status.kind}" data-tone="${status.kind}"
       ${status.words ? '' : 'hidden'}>${text(status.words)}</button>`);
     place.toggleAttribute('data-problem', Boolean(problem));
@@ -33,8 +37,15 @@
       (again ?? place.querySelector('[data-slide]'))?.focus({preventScroll: true});
     }
     clearTimeout(told);
-    told = setTimeout(() => RX.say(place.textContent), problem ? 0 : LATER);  // Once no answer follows.
+    told = setTimeout(() => RX.say(spoken()), problem ? 0 : LATER);  // Once no answer follows.
   });
+
+  // What is not yet of these inputs is said with its mark.
+  const spoken = () => [...place.childNodes].map(node => node instanceof Element && node.hasAttribute('data-stale')
+    ? `${node.textContent} (${node.getAttribute('aria-description')})` : node.textContent).join('');
+
+  // From the change of an input to its answer, the page as a whole has the mark; without a trim it keeps it.
+  RX.paint(['line', 'stale'], ({problem}, stale) => outdate(document.documentElement, stale || problem));
 
   // It moves at once; what is said of the design before is grey until the answer comes.
   const sliding = paced((/** @type {[string, number]} */ to) => RX.send('slide', to));
@@ -47,7 +58,7 @@
     const digits = Math.max(0, -Math.floor(Math.log10(control.step) + 1e-9));
     element.textContent = element.textContent.startsWith('+') || /^[a-z]/.test(element.textContent)
       ? Common.signed(value, digits) : Common.fixed(value, digits);
-    for (const answer of place.querySelectorAll('[data-explorer]')) answer.toggleAttribute('data-stale', true);
+    outdate(document.documentElement, true);
     place.written = '';
     sliding.send([name, value]);
     clearTimeout(told);

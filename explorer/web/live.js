@@ -79,8 +79,9 @@
       const within = Math.max(Math.hypot(spread(doubt.change, of), doubt.error), doubt.least);
       const shown = roundedPair(Math.abs(change), within, doubt.words, doubt.decimals);
       const {word, decimals} = shown, none = !shown.change;
+      const size = banded(fixed(shown.change, decimals), fixed(shown.band, decimals));
       const against = none ? 'as much as the shared design'
-        : `${banded(fixed(shown.change, decimals), fixed(shown.band, decimals))} ${change > 0 ? 'more' : 'less'} than as shared, ${word}`;
+        : `${size} ${change > 0 ? 'more' : 'less'} than as shared, ${word}`;
       const words = handles.map((handle, k) => (handle.sign ? signed : fixed)(values[k], handle.digits));
       const line = model.line.map(([text, k]) => k === null ? text : words[k]).join('');
       const takes = banded(fixed(total, digits), fixed(band, Math.max(digits, least)));

@@ -9,7 +9,8 @@
   const CARDS = 288, STACKED = 350;  // [px] Cards beside the circle, and above and below it.
   const MOVING = 320;  // [px] Along the edge of the field while something moves.
   const COLOURS = {
-    stall: 'var(--rx-stall)', past_static: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)', drag_divergence: 'var(--rx-ink)',
+    stall: 'var(--rx-stall)', past_static: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)',
+    drag_divergence: 'var(--rx-ink)',
   };
   const DASHES = {past_static: '1.5 3.5', drag_divergence: '3 4'};
   /** @type {[string, string, number, string][]} */
@@ -338,8 +339,10 @@
     own.forEach((there, k) => {
       const kind = !there ? null : there.separated ? 'stall' : there.margin < 0 ? 'dim' : null;
       if (!kind) { before = null; return; }
-      if (kind !== before) bands.push({kind: 'band', x: [], low: [], high: [], colour: `var(--rx-${kind})`, opacity: .45});
-      before = kind;
+      if (kind !== before) {
+        before = kind;
+        bands.push({kind: 'band', x: [], low: [], high: [], colour: `var(--rx-${kind})`, opacity: .45});
+      }
       const {alpha, upper, lower} = there, band = bands.at(-1);
       const [one, other] = inside([alpha, alpha > (upper + lower) / 2 ? upper : lower]);
       band.x.push(x[k]);
@@ -356,8 +359,6 @@
     if (margin < 0) return {value: `${fixed(-margin, 1)}° past the static angle, attached`, kind: ''};
     return {value: Number.isFinite(margin) ? `${fixed(margin, 1)}° to static stall` : '', kind: ''};
   }
-
-  RX.paint('line', line => place.toggleAttribute('data-faded', Boolean(line.problem)));
 
   const redraw = soon(() => { if (RX.state.plan) { drawCursor(); drawAround(); } });
   const onStep = r => clamp(Math.round(100 * r), Math.ceil(100 * RX.shown('plan').root - 1e-7), 100) / 100;

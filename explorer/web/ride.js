@@ -108,8 +108,9 @@
         <span class="rxf-dim">${text(section.where[nearer])} · ${text(section.section)}</span>
         <span class="rxf-num ${bad ? 'rxf-bad' : ''}" data-value>${text(words)}</span>
         <button data-page-ride aria-label="Leave the blade" title="Leave the blade (Esc)">×</button></div>
-      <div class="rxf-filled ${bad ? 'rxf-bad' : ''}" role="img" aria-label="Angle of attack over the static stall angle:
-        ${Math.round(filled)} %"><i style="width:${filled.toFixed(1)}%"></i></div>
+      <div class="rxf-filled ${bad ? 'rxf-bad' : ''}" role="img"
+        aria-label="Angle of attack over the static stall angle: ${Math.round(filled)} %">
+        <i style="width:${filled.toFixed(1)}%"></i></div>
       ${svg(half, 'The section with the air it meets and its lift', drawSection(values, half))}${svg(frame.width,
         'Lift coefficient over the angle of attack, with the point of this section', drawLift(values, frame))}`;
   }

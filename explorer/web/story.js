@@ -19,16 +19,13 @@ window.makeStory = (column, figures, report) => {
     write(foot.querySelector('.rxs-dots'), steps.map(({title}, k) => `<button data-do="story" data-value="${k}"
       aria-label="Step ${k + 1}: ${text(title)}" title="${text(title)}"></button>`).join(''));
     steps.forEach((step, k) => {
-      const part = section(k), pair = part.querySelector('.rxs-pair');
+      const part = section(k);
       // A sentence stands once its numbers are there.
       const computed = step.question && step.options.every(Boolean);
       write(part.querySelector('.rxs-watch'), marked(step.watch));
       write(part.querySelector('legend'), computed ? marked(step.question) : 'Computing …');
       step.options.forEach((option, n) => write(part.querySelectorAll('.rxs-guess button')[n], text(option)));
       part.querySelector('.rxs-guess > div').hidden = !computed;
-      pair.hidden = !step.a || !step.b;
-      write(pair.children[1], text(step.a));
-      write(pair.children[3], text(step.b));
       drawControl(step, part.querySelector('.rxs-control'));
     });
   };
@@ -40,7 +37,7 @@ window.makeStory = (column, figures, report) => {
       : `<button data-sweep aria-label="Play: move ${name} from end to end" title="Move it from end to end"></button>
         <input type="range" min="0" max="${most}" step="1" data-stop aria-label="${name}">`;
     write(place, `<p><b>${name}</b><output class="rxf-num"></output></p><div class="rxs-bar">${bar}</div>
-      <p class="rxs-todo"></p>`);
+      <p class="rxs-note" role="status" hidden></p><p class="rxs-todo"></p>`);
     const sentence = todo.replace(`**${label}**: `, '');
     write(place.querySelector('.rxs-todo'), marked(sentence.charAt(0).toUpperCase() + sentence.slice(1)));
   };
@@ -61,6 +58,13 @@ window.makeStory = (column, figures, report) => {
       }
     });
     const part = section(at), place = part.querySelector('.rxs-answer'), step = steps[at];
+    // What is compared on the page, whatever the step began with.
+    const pair = part.querySelector('.rxs-pair'), note = part.querySelector('.rxs-note');
+    pair.hidden = !now.a || !now.b;
+    write(pair.children[1], text(now.a));
+    write(pair.children[3], text(now.b));
+    note.hidden = !now.note;
+    note.textContent = now.note;
     for (const other of list.querySelectorAll('.rxs-answer')) other.hidden = other !== place || guess === null;
     if (guess !== null) {
       const right = answer && answer.right === guess;

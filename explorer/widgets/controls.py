@@ -216,7 +216,7 @@ class DesignControls:
         for name in names:
             form, below = (
                 slider(name, SI, self._start.aircraft),
-                tag("div.rxp-worth", data_worth=name),
+                tag("div.rxp-worth", data_worth=name, data_answers=True),
             )
             self.form.slider(
                 name, form, float(getattr(self._start, name)), visible=name in seen, below=below

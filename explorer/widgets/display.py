@@ -122,7 +122,7 @@ class Display:
                 unit=f"{field.unit}{field.note}",
                 colours=_bar(field.colours),
                 ticks=bar_ticks(*range_),
-                faded=self._faded,
+                stale=self._faded,
                 fitted=self.fitted,
                 regions={name: getattr(view, name) for name in SWITCHES},
                 shares=self._shares,

@@ -31,7 +31,7 @@ from explorer.picture.picture import (
 )
 from explorer.scene.controller import TURN_RATE, SceneController
 from explorer.text.glossary import hint
-from explorer.text.readout import faded
+from explorer.text.readout import outdated
 from explorer.widgets.context import Player, TabContext
 from explorer.widgets.layout import COARSE, by_hand
 from rotor import Rotor, Solution
@@ -291,7 +291,7 @@ class ProbePanel:
         self._ride.end()
         self._pause()
         self._drawn = None
-        self._panel.content = faded(self._html)
+        self._panel.content = outdated(self._html)
         self._cursor.hide()
 
     def point(self, at: SectionPress) -> None:

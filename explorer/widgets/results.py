@@ -4,6 +4,7 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
+from explorer.text.readout import answers
 from explorer.text.status import status_panel, trust_page
 from explorer.views.waterfall import WATERFALL_WORDS, waterfall_chart
 from explorer.widgets.context import TabContext
@@ -17,12 +18,17 @@ def drawer_texts(context: TabContext) -> Mapping[str, Callable[[Any], None]]:
     def text(content: Markup) -> Callable[[Markup], None]:
         return partial(setattr, gui.add_html(content), "content")
 
+    def answer(content: Markup) -> Callable[[Markup], None]:
+        widget = gui.add_html(answers(content))
+        return lambda shown: setattr(widget, "content", answers(shown))
+
     with layout.drawers["details"]:
-        power, trim = text(Markup()), text(Markup())
+        power, trim = answer(Markup()), answer(Markup())
         gui.add_html(tag("div.rx.rx-dim.rx-small.rx-found", WATERFALL_WORDS))
-        waterfall = text(waterfall_chart(()))
+        waterfall = answer(waterfall_chart(()))
     with layout.drawers["trust"]:
-        status, doubts = text(status_panel(None)), text(Markup())
+        # The status says why there is no answer, too.
+        status, doubts = text(status_panel(None)), answer(Markup())
         gui.add_html(trust_page())
     return {
         "details.power": power,

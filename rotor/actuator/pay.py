@@ -339,15 +339,16 @@ def pay_sentence(even: BreakEven) -> str:
     """One line on the twist, mass and drive that an actuator would need to break even on this rotor."""
     needed, ideal = even.requirement, even.ideal_saving
     change = math.degrees(abs(even.change))
-    saves = banded(ideal, even.ideal_band, "W")
+    saves = banded(ideal / 1e3, even.ideal_band / 1e3, "kW")
     if not even.worthwhile:
         return (
             f"No actuator pays: unlimited twist saves, of {even.fixed_power / 1e3:.0f} kW, {saves} "
             f"({change:.1f}° between the optima)."
         )
     return (
-        f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ {needed.mass:.1f} kg and {needed.drive:.0f} W; "
-        f"with no drive power, for ≤ {even.mass_allowed(needed.twist):.1f} kg. Unlimited twist saves {saves}."
+        f"Pays if it twists ≥ {math.degrees(needed.twist):.1f}° for ≤ {needed.mass:.1f} kg and "
+        f"{needed.drive / 1e3:.2f} kW; with no drive power, for ≤ {even.mass_allowed(needed.twist):.1f} kg. "
+        f"Unlimited twist saves {saves}."
     )
 
 
@@ -357,7 +358,7 @@ def break_even_chart(even: BreakEven) -> Chart:
     driven = tuple(even.mass_allowed(twist, half) for twist in even.twists.tolist())
     lines = (
         Line("no drive power", degrees, tuple(even.masses.tolist()), 1),
-        Line(f"{half:.0f} W of drive", degrees, driven, 1, dashes=True),
+        Line(f"{half / 1e3:.2f} kW of drive", degrees, driven, 1, dashes=True),
     )
     return Chart(
         "Pays below the line",

@@ -12,6 +12,7 @@ from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.verdict import Verdict, try_actuator
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.trim.control_stops import rigged_collective
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -112,7 +113,8 @@ def stopped_designs(
 ) -> tuple[FailurePoint, ...]:
     """Each design as it is, and with the twist and the active twist of the one at which the actuator stops.
 
-    jig: the twist at which the stops of the controls hold, for pitch is given at the root; by default each its own.
+    jig: the twist at which the stops of the controls hold, for pitch is given at the root; by default each the one that
+    it was built with.
     """
     points: list[FailurePoint] = []
     for design in working:
@@ -131,13 +133,12 @@ def stopped_designs(
 def numbers_of(trim: Solution, jig: TwistLaw | None) -> TrimNumbers:
     """A trim in numbers; jig: as for `stopped_designs`."""
     design, controls = trim.design, trim.controls
-    stops, stations = design.aircraft.controls, [design.rotor.blade.root_cutout, 0.75, 1.0]
-    root, rest, tip = design.twist(stations)
+    stops = design.aircraft.controls
+    root, tip = design.twist([design.rotor.blade.root_cutout, 1.0])
     left = None
     if stops is not None:
-        as_rigged = (design.twist if jig is None else jig)(stations)
-        turned = float(root - rest - (as_rigged[0] - as_rigged[1]))
-        left = stops.left(controls.collective + turned, controls.cyclic_1c, controls.cyclic_1s)
+        collective = rigged_collective(design, controls, jig)
+        left = stops.left(collective, controls.cyclic_1c, controls.cyclic_1s)
     power = trim.power.total if trim.converged else None
     cyclic = math.hypot(controls.cyclic_1c, controls.cyclic_1s)
     return TrimNumbers(

@@ -201,6 +201,6 @@ def _wanted(even: BreakEven) -> Row:
         "sign": sureness(even.ideal_saving, even.ideal_band),
         "twist ≥ °": f"{math.degrees(needed.twist):.1f}" if pays else NONE,
         "mass ≤ kg": f"{needed.mass:.1f}" if pays else NONE,
-        "drive ≤ W": f"{needed.drive:.0f}" if pays else NONE,
+        "drive ≤ kW": f"{needed.drive / 1e3:.2f}" if pays else NONE,
         "mass ≤ kg, no drive": f"{even.mass_allowed(needed.twist):.1f}" if pays else NONE,
     }

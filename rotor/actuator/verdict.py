@@ -27,6 +27,7 @@ from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import Concept, find_concept
 from rotor.optimisation.doubt import difference_doubt
 from rotor.support.arrays import Array
+from rotor.support.units import KILOWATT
 from rotor.trim.analysis import Analysis
 from rotor.trim.doubt import Doubt, pair_text, rounded_pair, sure_words, sureness
 from rotor.trim.solution import Solution
@@ -405,10 +406,11 @@ def _net_saving(verdict: Verdict) -> str:
     return f"{pair.change:.{pair.decimals}f} kW"
 
 
-def verdict_details(verdict: Verdict) -> str:
-    """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits."""
+def verdict_details(verdict: Verdict, unit: tuple[str, float] = KILOWATT) -> str:
+    """What the one line leaves out: reach, parts of the saving, fuel, ideal twist and limits. `unit`: symbol and size
+    [W] of the unit of power."""
     sentences, saved, band = (
-        [_reach(verdict), _savings(verdict)],
+        [_reach(verdict), _savings(verdict, unit)],
         verdict.fuel_saving,
         verdict.fuel_band,
     )
@@ -451,37 +453,41 @@ def _reach(verdict: Verdict) -> str:
     return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({nominal:.1f}° nominal)."
 
 
-def _savings(verdict: Verdict) -> str:
+def _savings(verdict: Verdict, unit: tuple[str, float]) -> str:
     """Each part of the net saving, and what unlimited variable twist would save."""
     installed, concept = verdict.installed, verdict.baseline.concept.name
     start = verdict.reference_power - verdict.bare_power
     gross = dict(verdict.savings)["gross"]
-    parts = [f"Against {reference(verdict)}, its twist {part_words(verdict, 'gross', gross)}"]
+    parts = [f"Against {reference(verdict)}, its twist {part_words(verdict, 'gross', gross, unit)}"]
     if abs(start) >= MIN_SHOWN_IN_KW:
-        parts[0] += f", and its built-in twist alone {part_words(verdict, 'blade', start)}"
+        parts[0] += f", and its built-in twist alone {part_words(verdict, 'blade', start, unit)}"
     if abs(verdict.stiffness_cost) >= MIN_SHOWN_IN_KW:
         other = "softer" if installed.host.stiffness < 1.0 else "stiffer"
         parts.append(
-            f"the {other} elastic blade {part_words(verdict, 'stiffness', -verdict.stiffness_cost)}"
+            f"the {other} elastic blade {part_words(verdict, 'stiffness', -verdict.stiffness_cost, unit)}"
         )
     mass = installed.masses.aircraft
-    parts.append(f"carrying {mass:.0f} kg {part_words(verdict, 'mass', -verdict.mass_cost)}")
-    parts.append(f"its drive costs {kilowatt_text(verdict.drive_cost)}")
-    ideal = part_words(verdict, "ideal", verdict.ideal_saving)
+    parts.append(f"carrying {mass:.0f} kg {part_words(verdict, 'mass', -verdict.mass_cost, unit)}")
+    parts.append(f"its drive costs {_size_text(verdict.drive_cost, unit)}")
+    ideal = part_words(verdict, "ideal", verdict.ideal_saving, unit)
     return f"{'; '.join(parts)}. Unlimited twist in flight ({concept}) {ideal}."
 
 
-def part_words(verdict: Verdict, name: str, saving: float) -> str:
+def part_words(
+    verdict: Verdict, name: str, saving: float, unit: tuple[str, float] = KILOWATT
+) -> str:
+    """What a part saves or costs, with its band, as `saves 9.2 ± 3.6 kW: sure`."""
     verb, size, band = (
         "costs" if saving <= -MIN_SHOWN_W else "saves",
         abs(saving),
         verdict.band_of(name),
     )
     if not band or size < MIN_SHOWN_W:
-        return f"{verb} {kilowatt_text(size)}"
+        return f"{verb} {_size_text(size, unit)}"
     # The sentence of the verdict says once why no word is `sure`.
     word = sureness(size, band, sourced=verdict.sourced)
-    return f"{verb} {pair_text(size / 1e3, band / 1e3, 'kW')}: {word}"
+    symbol, watts = unit
+    return f"{verb} {pair_text(size / watts, band / watts, symbol)}: {word}"
 
 
 def flight_text(advance_ratio: float) -> str:
@@ -490,4 +496,12 @@ def flight_text(advance_ratio: float) -> str:
 
 def kilowatt_text(power: float, digits: int = 1) -> str:
     """A power [W] in kilowatts; "nothing" below MIN_SHOWN_W."""
-    return "nothing" if abs(power) < MIN_SHOWN_W else f"{power / 1e3:.{digits}f} kW"
+    return _size_text(power, KILOWATT, digits)
+
+
+def _size_text(power: float, unit: tuple[str, float], digits: int = 1) -> str:
+    """A power [W] in a unit; "nothing" below MIN_SHOWN_W."""
+    if abs(power) < MIN_SHOWN_W:
+        return "nothing"
+    symbol, watts = unit
+    return f"{power / watts:.{digits}f} {symbol}"

@@ -213,8 +213,8 @@ def report(verdict: Verdict) -> str:
         f"torsion           {installed.frequency:8.2f} /rev",
         f"added mass        {masses.aircraft:8.1f} kg  ({masses.blade:.1f} per blade, "
         f"{masses.balance:.1f} of it nose weight)",
-        f"drive             {verdict.drive.slew_power:8.0f} W during a change of {verdict.drive.slew_time:.0f} s, "
-        f"{verdict.drive.hold_power:.0f} W to hold",
+        f"drive             {verdict.drive.slew_power / 1e3:8.2f} kW during a change of "
+        f"{verdict.drive.slew_time:.0f} s, {verdict.drive.hold_power / 1e3:.2f} kW to hold",
     ]
     edges = (base.pair.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
     for k, (a, b) in enumerate(verdict.voltages):

@@ -22,7 +22,7 @@ from rotor.optimisation.objective import (
 from rotor.optimisation.results import Minimum, Optimum, ParameterBand, Progress, SearchStatus
 from rotor.optimisation.search import STARTS, Search, nearby_flights, run_search
 from rotor.support.terminal import wrapped
-from rotor.support.units import power_text
+from rotor.support.units import power_text, seconds_text
 from rotor.trim.doubt import Doubt, other_models
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.solution import Solution
@@ -348,7 +348,7 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         if optimum.doubt_cost is not None:
             cost = power_text(optimum.doubt_cost, 1)
             lines.append(
-                f"with other inputs or inflow, the best twist then is expected to need {cost} less than this one"
+                f"with inputs or inflow off by their uncertainty, the best twist would need {cost} less than this one"
             )
     if best.index is not None:
         low, high = beside.index_band or (best.index, best.index)
@@ -375,6 +375,6 @@ def report(optimum: Optimum, concept: Concept, beside: _ExtraResults, objective:
         lines.append(
             f"local minimum: {power_text(other.power, 1)} with {common.short_spec(other.twist)}"
         )
-    lines.append(f"{optimum.evaluations} evaluations, {optimum.elapsed:.2g} s")
+    lines.append(f"{optimum.evaluations} evaluations, {seconds_text(optimum.elapsed)}")
     lines += [wrapped(f"caveat: {caveat}", "  ") for caveat in beside.caveats]
     return "\n".join(lines)

@@ -236,7 +236,7 @@ def _decks_of(
         for mach in machs
     )
     above = (
-        ", above them Prandtl–Glauert lift, a lift limit and Korn's wave drag"
+        ", above these Mach numbers lift by the Prandtl–Glauert rule, a lift limit and Korn's wave drag"
         if machs[-1] < 0.99
         else ""
     )

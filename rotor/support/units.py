@@ -35,15 +35,25 @@ def unit_of(name: str) -> str:
     return next((unit for end, unit in _UNITS.items() if name.endswith(end)), "")
 
 
+KILOWATT = ("kW", 1e3)
+"""Symbol and size [W]."""
+
+
 def power_unit(*powers: float) -> tuple[str, float]:
     """Symbol and size [W] of the unit in which powers [W] stand side by side: W where all are below 1 kW, else kW."""
-    return ("W", 1.0) if max(map(abs, powers), default=0.0) < 1e3 else ("kW", 1e3)
+    return ("W", 1.0) if max(map(abs, powers), default=0.0) < 1e3 else KILOWATT
 
 
 def power_text(power: float, digits: int = 0) -> str:
     """A power [W] in words: `901 kW`, `412 W`."""
     symbol, size = power_unit(power)
     return f"{power / size:z.{digits}f} {symbol}"
+
+
+def seconds_text(seconds: float) -> str:
+    """A duration in words: `440 s`, `4.2 s`."""
+    digits = 0 if seconds >= 9.95 else 1
+    return f"{seconds:.{digits}f} s"
 
 
 def degrees_text(angle: float) -> str:

@@ -157,9 +157,9 @@ class Doubt:
         """The bands in words, for example `Power 901 ± 52 kW. It saves 1.8 ± 0.7 %: sure.`"""
         return self.in_words("It")
 
-    def in_words(self, design: str) -> str:
-        """The power, and after `design` what the design saves, as in `sentence`."""
-        symbol, size = power_unit(self.power, self.band)
+    def in_words(self, design: str, unit: tuple[str, float] | None = None) -> str:
+        """The power, and after `design` what the design saves, as in `sentence`. `unit`: symbol and size [W]."""
+        symbol, size = unit or power_unit(self.power, self.band)
         band = self.band / size
         digits = decimals(band)
         words = f"{self.of} {self.power / size:.{digits}f} ± {band:.{digits}f} {symbol}."

@@ -126,7 +126,8 @@ def outside_power(problem: Problem) -> tuple[float, float]:
     if design.condition.stand is not None:
         return 0.0, 0.0
     watts, weight = design.power_unit, design.weight_coefficient / design.condition.load_factor
-    # In a turn n W too, of which `drag_parts` has taken away its part of the path.
+    # The rotor pushes up more than the weight: the downward part of the drag and, in a turn, (n − 1) W. `drag_parts`
+    # has taken (n − 1) W sin γ off the drag along the path, so that the sum is drag times speed.
     pressed = problem.weight - weight
     parasite = (
         problem.drag * design.condition.advance_ratio + pressed * design.vertical_ratio

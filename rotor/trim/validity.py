@@ -18,6 +18,7 @@ from rotor.design.aircraft import FIXED_SHARE, Stand, in_words
 from rotor.design.design import Design
 from rotor.support.arrays import Array
 from rotor.support.units import power_text
+from rotor.trim.control_stops import rigged_collective
 from rotor.trim.low_speed import hover_share
 from rotor.trim.no_hub_loads import why_no_hub_loads
 from rotor.trim.power import HubMoment
@@ -180,11 +181,11 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
     found = dict[str, str]()
     if 0.0 < mu < LOW_SPEED and trim.fixed_inflow:
         found["low-speed-inflow"] = (
-            f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; this is {mu:.3f}."
+            f"Prescribed inflow is invalid below advance ratio {LOW_SPEED:g}; the rotor flies at {mu:.3f}."
         )
     if 0.0 < mu < LOWEST_SPEED and not trim.fixed_inflow:
         found["low-speed-inflow"] = (
-            f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; this is {mu:.3f}."
+            f"No skewed-wake model is validated below advance ratio {LOWEST_SPEED:g}; the rotor flies at {mu:.3f}."
         )
     if hover_share(design) and trim.problem.air.joined is None:
         found["low-speed-not-matched"] = (
@@ -321,7 +322,8 @@ def _beyond_stops(trim: CaveatInputs) -> list[str]:
         "lateral": stops.lateral,
         "longitudinal": stops.longitudinal,
     }
-    for name, place in stops.places(state.collective, state.cyclic_1c, state.cyclic_1s).items():
+    collective = rigged_collective(trim.design, state)
+    for name, place in stops.places(collective, state.cyclic_1c, state.cyclic_1s).items():
         if not 0.0 <= place <= 1.0:
             low, high = (math.degrees(end) for end in ranges[name])
             what = name if name == "collective" else f"{name} cyclic"
@@ -438,8 +440,8 @@ def _share(stalled: float) -> str:
     return f" The flow is separated over {100.0 * stalled:.0f} % of the disk in the last attempt."
 
 
-def failure_sentence(design: Design, reached: float, stalled: float) -> str:
-    """Why a design did not trim, and the remedy. reached: in hover the largest C_T over that needed."""
+def failure_sentence(design: Design, stalled: float) -> str:
+    """Why a design did not trim, and the remedy."""
     condition = design.condition
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, stalled)
@@ -449,10 +451,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
         (f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *in_words(design.unusual))
     )
     if design.hovering:
-        return (
-            f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that {what} "
-            f"needs; {advice}."
-        )
+        return f"Not trimmed: {what} is beyond this rotor in hover: {advice}."
     if _tilt(design) > LARGEST_TILT:
         return (
             f"Not trimmed: drag tilts the shaft by {math.degrees(_tilt(design)):.0f}° at {what} and advance ratio "
@@ -482,18 +481,21 @@ class Largest:
     mass_kg: float | None = None
     mu: float | None = None
     ct_over_sigma: float | None = None
+    hovering: bool = False
 
 
 def largest_sentence(largest: Largest) -> str:
     """`The largest that trims is 13152 kg at this speed.`, never rounded up; empty where nothing is known."""
     named = list[str]()
     if largest.mass_kg is not None:
-        named.append(f"{math.floor(largest.mass_kg)} kg at this speed")
+        place = "in hover" if largest.hovering else "at this speed"
+        named.append(f"{math.floor(largest.mass_kg)} kg {place}")
     if largest.mu is not None:
         named.append(f"advance ratio {math.floor(1e3 * largest.mu) / 1e3:.3f} at this mass")
     if largest.ct_over_sigma is not None:
         loading = math.floor(1e4 * largest.ct_over_sigma) / 1e4
-        named.append(f"C_T/σ {loading:.4f} at this advance ratio")
+        place = "in hover" if largest.hovering else "at this advance ratio"
+        named.append(f"C_T/σ {loading:.4f} {place}")
     if not named:
         return ""
     verb = "trim are" if len(named) > 1 else "trims is"

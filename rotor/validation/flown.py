@@ -79,6 +79,10 @@ class MeasuredPower:
             design.condition.advance_ratio, self.mu, abs_tol=1e-9
         )
 
+    def error(self, solution: Solution) -> float:
+        """Computed less measured power of the main rotor, over the measured one."""
+        return solution.power.main_rotor / self.power - 1.0
+
     @property
     def title(self) -> str:
         """The flight in words."""

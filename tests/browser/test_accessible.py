@@ -36,7 +36,7 @@ def violations(watched: Watched) -> list[str]:
     for _ in range(20):
         watched.answered()
         watched.page.wait_for_function(
-            "() => !document.querySelector('[data-faded], [data-stale]')", timeout=4 * WAIT
+            "() => !document.querySelector('[data-stale]')", timeout=4 * WAIT
         )
         if not (found := watched.page.evaluate(CHECK) + watched.page.evaluate(UNREAD)):
             break

@@ -18,7 +18,9 @@ def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit
     watched.says("prompt", "Drag the blade tip up or down")
     watched.press("Δ outboard", "ArrowRight", 3)
     watched.page.wait_for_selector('[data-explorer="prompt"]', state="hidden")
-    watched.reads("line", r": [\d.]+ ± [\d.]+ kW (more|less) than as built, (sure|likely|unclear)")
+    watched.reads(
+        "line", r": [\d.]+ ± [\d.]+ kW (more|less) than as built \(\d+\), (sure|likely|unclear)"
+    )
     watched.page.get_by_role("button", name="Undo").click()
     watched.until(lambda: watched.text("line") == as_built)
     assert watched.page.locator('[data-explorer="prompt"]').is_hidden()

@@ -51,7 +51,7 @@ TOTAL = "() => RX.state.line.pieces.find(piece => piece.part === 'total-power')?
 def found(watched: Watched) -> tuple[dict[str, Any], int]:
     """What is wrong once nothing is stale, and the width of the plan's disk [px]."""
     watched.page.wait_for_function(
-        "() => !document.querySelector('[data-faded], [data-stale]')", timeout=4 * WAIT
+        "() => !document.querySelector('[data-stale]')", timeout=4 * WAIT
     )
     look = f"() => ({{...({MEASURE})(), ...({LEGIBLE})()}})"
     now: dict[str, Any] = watched.at_rest(lambda: watched.page.evaluate(look))

@@ -24,7 +24,7 @@ from explorer.model.actuator_inputs import (
     verdict_tasks,
 )
 from explorer.model.inputs import Inputs, ViewState, inputs_of, with_rotor
-from explorer.model.units import SI
+from explorer.model.units import SI, UNITS
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.lifted_picture import TWIST_EXAGGERATION, flown_twist, lifted_picture
@@ -38,9 +38,10 @@ from explorer.views.page_state import SetHand
 from explorer.workers import background
 from explorer.workers.background import PoolAnswers
 from explorer.workers.call import Call
-from rotor.actuator import with_actuator
+from rotor.actuator import verdict_details, with_actuator
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict
+from rotor.command.actuator import report
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
@@ -212,6 +213,17 @@ def test_the_verdict_is_told_whole(verdict: Verdict):
     assert all(limit_words(limit.name) in limits for limit in verdict.limits)
     assert "torsion least" not in limits
     assert "▲" in limits  # Recalled data are marked.
+
+
+def test_the_parts_of_a_verdict_have_the_unit_of_the_view(verdict: Verdict):
+    """Also the small power of the drive."""
+    for units in UNITS.values():
+        unit = units.power[0]
+        text = actuator_words.fit_panel(verdict.installed, verdict, units)
+        text += verdict_details(verdict, (unit.symbol, unit.size))
+        assert set(re.findall(r"(?<=\d )(?:kW|W|hp)\b", text)) == {unit.symbol}
+    # The command prints kilowatts alone, also for the drive.
+    assert set(re.findall(r"(?<=\d )(?:kW|W|hp)\b", report(verdict))) == {"kW"}
 
 
 def asked(name: str) -> Call:

@@ -18,7 +18,7 @@ from explorer.export.figures import actuator_section
 from explorer.export.provenance import provenance_lines
 from explorer.export.report import report_html
 from explorer.model.actuator_inputs import AGAINST, MOST_SEGMENTS, ActuatorInputs, ActuatorState
-from explorer.model.inputs import Inputs, ViewState
+from explorer.model.inputs import ViewState
 from explorer.model.session_state import SessionState
 from explorer.model.units import SI, adding
 from explorer.page import PANELS
@@ -34,13 +34,13 @@ from explorer.views.actuator_words import limits_panel
 from explorer.views.assessed import ACTUATOR_CARD, choose
 from explorer.views.dial import DIAL
 from explorer.views.flight import FLIGHT
-from explorer.views.line import LINE, line_text, works
+from explorer.views.line import LINE, line_text
 from explorer.views.page_state import OpenPanels, PageState, SetHand
 from explorer.views.pay import PAY
 from explorer.views.power import POWER
 from explorer.views.vibration import VIBRATION
 from explorer.views.worth import WORTH
-from explorer.workers.call import Call, at_once
+from explorer.workers.call import Call
 from rotor import Design, Solution, doubt
 from rotor.actuator import (
     FlightLeg,
@@ -64,46 +64,16 @@ from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.doubt import ESTIMATED, RoundedPair, rounded_pair, sureness
 from rotor.trim.solve import solve
-from tests.actuate import actuate, asked, done, solved, told, worked
+from tests.actuate import INPUTS, actuate, answered, done, run, worked
 
-INPUTS = Inputs(law="builtin", advance_ratio=0.2, inflow="drees")
 DRIVEN = (77.0,) * MOST_SEGMENTS
 DESIGN = make_design(mu=0.2, inflow="drees")
 NUMBER = r"[+−]?\d+(?:\.\d+)?"
 
 
 @cache
-def run(call: Call) -> Any:
-    return call.run()
-
-
-@cache
 def trimmed(design: Design) -> Solution:
     return solve(design).require()
-
-
-def answered(
-    against: Against,
-    drives: tuple[float, ...],
-    state: ActuatorState = "set",
-    id: str = "MFC_P1",
-    inputs: Inputs = INPUTS,
-) -> PageState:
-    """The page in a state of the actuator once all that the value waits for is known."""
-    now = actuate(inputs, actuator=ActuatorInputs(id, against=against, drives=drives))
-    for name in ("lean_verdict", "flight_of"):
-        now = told(ACTUATOR, now, **{name: run(asked(ACTUATOR, now)[name])})
-    now = solved(done(now, FLIGHT.presses["state"](now, state)))
-    now = told(ACTUATOR_CARD, now, other_stroke=run(asked(ACTUATOR_CARD, now)["other_stroke"]))
-    effects = {call: run(call) for call in DIAL.asks(now)[0].calls}
-    now = replace(now, answers={**now.answers, **effects})
-    now = worked(ACTUATOR_CARD, worked(DIAL, now))
-    doubts = {task.key: at_once(task.run(lambda: None)) for task in works(now)}
-    now = replace(now, answers={**now.answers, **doubts})
-    flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)
-    return replace(
-        now, answers=told(FLIGHT, flown, powers=run(asked(FLIGHT, flown)["powers"])).answers
-    )
 
 
 def card(now: PageState) -> AssessedPart:
@@ -185,6 +155,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("power", r": # kW, [0-9.]+ % of the disk", flight["flight"].words)
     read("stalled", "# % of the disk separated", flight["flight"].words)
     read("power here", "kW.*: # ± .*kW (?:more|less) than", said)
+    read("power compared with", r"than [a-z ]+ \(#\)", said)
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))
     read("power over the flight", "(?:needs|saves) # ±", part.flight)
     read("power over the flight", "By schedule it (?:needs|saves) # ±", part.sentence)
@@ -283,6 +254,7 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
             for name in ("induced", "profile", "parasite", "tail")
         },
         "power": f"{1e-3 * flown.power.total:.0f}",
+        "power compared with": f"{1e-3 * other.power.total:.0f}",
         "power here": as_said(
             flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0),
             None if flown.design == other.design else doubt(flown, other).change_band,
@@ -341,7 +313,8 @@ def test_every_number_on_the_screen_is_that_of_rotor(
     than = "without it" if against == "same-blade" else "with the best fixed blade"
     states = {"set": "at", "schedule": "by schedule at", "stopped": "stopped at"}
     assert re.search(
-        rf" with {id.replace('_', ' ')} {states[state]} .* than {than}, ", line_text(now)
+        rf", twist as built, with {id.replace('_', ' ')} {states[state]} .* than {than} \(\d+\), ",
+        line_text(now),
     )
 
 
@@ -411,7 +384,7 @@ def test_twist_at_n_per_rev_adds_the_same_to_card_dial_and_balance():
         card(rest).over[-1][:5],
         "twist at n/rev 0.75 of 0.30°",
     )
-    assert ", 3/rev 0.75°" in line_text(run_at)
+    assert ", 3/rev twist 0.75° at 60°, " in line_text(run_at)
     assert ", with 3/rev 0.75°" in ACTUATOR.view(run_at)["actuator.now"]
 
 

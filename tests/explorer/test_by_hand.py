@@ -127,6 +127,7 @@ def test_no_press_fails(app: App, caplog: pytest.LogCaptureFixture):
             await visitor.idle(wholly=False)
             said = [one.getMessage() for one in caplog.records if one.levelno >= logging.WARNING]
             assert (name, said) == (name, [])
+            assert (name, visitor.frame.get("stale", False)) == (name, False)
 
     visited(app, press)
 
@@ -150,7 +151,7 @@ def test_without_a_trim_the_last_numbers_stay_and_one_press_leads_back(app: App)
         lost = page.context.controls.inputs()
         assert visitor.text("status") == "problem"
         assert visitor.text("total-power") == ""
-        assert all(one["faded"] for one in visitor.frame["strip"] if one)
+        assert all(one["stale"] for one in visitor.frame["strip"] if one)
         await visitor.press("nearest")
         await visitor.idle(wholly=False)
         assert visitor.text("status") == "converged"
@@ -295,3 +296,26 @@ def test_a_voltage_is_a_step_of_its_own(app: App):
         await visitor.until(lambda: page.context.inputs().advance_ratio == OPENING.advance_ratio)
 
     visited(app, volts)
+
+
+def test_the_nearest_that_trims_is_what_the_sentence_names_or_is_said_to_be_unknown(app: App):
+    """In the vortex ring state no mass and no speed is named; in hover at 4000 m the largest mass is."""
+
+    async def act(visitor: Visitor, page: Page) -> None:
+        await visitor.press("slide", ["advance_ratio", 0.0])
+        await visitor.press("slide", ["climb_m_s", -10.0])
+        await visitor.until(lambda: "vortex ring" in visitor.frame["line"]["problem"])
+        await visitor.press("nearest")
+        await visitor.until(lambda: bool(visitor.notices))
+        assert visitor.notices[-1].startswith("No nearest design is known: ")
+        assert page.context.controls.inputs().climb_m_s == -10.0
+        await visitor.press("slide", ["climb_m_s", 0.0])
+        await visitor.press("slide", ["mass_t", 11.0])
+        await visitor.press("slide", ["isa_offset_c", 35.0])
+        await visitor.press("slide", ["altitude_m", 4000.0])
+        await visitor.until(lambda: " t in hover" in visitor.frame["line"]["problem"])
+        await visitor.press("nearest")
+        await visitor.until(lambda: not visitor.frame["line"]["problem"])
+        assert page.context.controls.inputs().mass_t < 11.0
+
+    visited(app, act)

@@ -1,14 +1,23 @@
 """How sure power is, as the page and the report say it."""
 
 import math
+import re
+from dataclasses import replace
 
 import pytest
 
 from explorer.charts.doubt import MOST_ROWS, doubt_rows, twist_ranges
-from explorer.model.units import AVIATION, SI
+from explorer.model.inputs import OPENING, with_rotor
+from explorer.model.stand import condition_of
+from explorer.model.units import AVIATION, SI, UNITS, Units, units_of
+from explorer.text.line import plain, power_pieces
+from explorer.text.status import status_panel, validated
+from rotor import doubt, solve
+from rotor.files.rotor_file import shipped_aircraft
 from rotor.optimisation.results import BestTwist, TwistRange
 from rotor.trim.doubt import Doubt, DoubtRow, OtherModels
 
+FC1 = replace(with_rotor(OPENING, "gazelle"), **condition_of("gazelle", "FC1").inputs)
 ROWS = tuple(
     DoubtRow(f"row {k}", f"input {k}", 5.0, "a report", 1e3 * (8 - k), 1e2 * (8 - k))
     for k in range(8)
@@ -36,6 +45,34 @@ def test_other_models_stand_beside_the_rows():
     assert "At least one lies outside the band" in html
     assert "outside" not in doubt_rows(Doubt(990e3, ROWS, 1000e3), SI, models[:1])
     assert "Other models" not in doubt_rows(Doubt(990e3, ROWS))
+
+
+@pytest.mark.parametrize(
+    "units", [*UNITS.values(), units_of("SI", shipped_aircraft("knight-hefner-3"))]
+)
+def test_the_drawer_of_trust_has_one_unit_of_power(units: Units):
+    """That of the page, in the sentence, the rows, the other models, the caveats and what was measured."""
+    heavy = with_rotor(replace(OPENING, advance_ratio=0.38), "uh60a")
+    b, a = (solve(replace(heavy, mass_t=mass).design()).require() for mass in (9.5, 8.32))
+    assert any("kW" in caveat.sentence for caveat in b.caveats)
+    flown = solve(FC1.design()).require()
+    assert "kW" in validated(flown).sentence
+    models = (OtherModels("bending", 980e3, -20e3),)
+    for solution, pinned in ((b, a), (a, None), (flown, None)):
+        band = doubt(solution, pinned)
+        line = plain(power_pieces(solution, units, band)) + "".join(
+            piece.title or "" for piece in power_pieces(solution, units, band)
+        )
+        html = status_panel(solution, pinned=pinned, units=units) + doubt_rows(band, units, models)
+        text = html.replace("<i>W</i>", "weight") + line
+        assert set(re.findall(r"(?<=\d )(?:kW|W|hp)\b", text)) == {units.power[0].symbol}
+
+
+def test_powers_of_a_sentence_keep_their_decimals():
+    assert AVIATION.in_power_unit("The engines give 2300 kW, 1.5 kW and 373 W.") == (
+        "The engines give 3\u2009084 hp, 2.0 hp and 1 hp."
+    )
+    assert SI.in_power_unit("Within 12 % of 900 kW.") == "Within 12 % of 900 kW."
 
 
 def test_ranges_of_the_best_twist_are_bars_on_one_scale():

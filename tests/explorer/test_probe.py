@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.testing import assert_allclose
 
-from explorer.charts.probe_drawing import drawing, probe_panel
+from explorer.charts.probe_drawing import drawing, printed_angles, probe_panel
 from explorer.charts.probe_measured import lift_chart
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
@@ -228,6 +228,54 @@ def test_a_ray_at_a_blade_finds_its_section_and_keeps_the_azimuth(psi_deg: float
 
 def numbers_of(text: str) -> list[float]:
     return [float(number) for number in re.findall(r"-?\d+(?:\.\d+)?", text)]
+
+
+class TestAngles:
+    """The section's angles add up to its angle of attack as they are printed."""
+
+    @given(r=st.floats(0.14, 1.0), psi=st.floats(0.0, 6.3))
+    def test_printed_angles_add_up(self, r: float, psi: float, fast: Solution):
+        p = probe(fast, max(r, fast.design.rotor.blade.root_cutout), psi)
+        assert p.pitch_rate is not None
+        theta, phi, rate, *turn, alpha = numbers_of(
+            printed_angles(p).sentence.replace("− 3", "−3").replace("−", "-")
+        )
+        assert theta - phi + rate + math.fsum(turn) == pytest.approx(alpha, abs=1e-9)
+        exact = [math.degrees(angle) for angle in (p.theta, p.phi, p.pitch_rate)]
+        # No part is rounded by more than a step.
+        assert_allclose([theta, phi, rate], exact, atol=0.1)
+        assert alpha == pytest.approx(math.degrees(p.alpha), abs=0.0501)
+
+    def test_the_part_of_the_pitch_rate_is_that_of_the_flow_at_three_quarters_of_the_chord(
+        self, fast: Solution
+    ):
+        """Of the UH-60A the outer half of the blade pitches by some tenths of a degree on each side."""
+        disk = fast.disk
+        parts = [probe(fast, 0.75, k * math.tau / 24).pitch_rate or 0.0 for k in range(24)]
+        assert 0.05 < math.degrees(max(parts)) < 1.0
+        assert 0.05 < -math.degrees(min(parts)) < 1.0
+        p = probe(fast, float(disk.r[12]), float(disk.psi[6]))
+        ahead = disk.alpha[12, 6] - disk.theta[12, 6] + math.atan2(disk.u_p[12, 6], disk.u_t[12, 6])
+        assert p.pitch_rate == pytest.approx(math.remainder(ahead, math.tau), abs=1e-12)
+
+    def test_the_drawer_names_the_formula_that_is_used(self, fast: Solution, steady: Solution):
+        moving = probe_panel(probe(fast, 0.75, 0.0), fast)
+        still = probe_panel(probe(steady, 0.75, 0.0), steady)
+        assert re.search(r">θ [\d.]+° − φ [\d.]+° \+ pitch rate [(−\d.]+°\)? = α [\d.]+°<", moving)
+        assert 'title="α = θ − φ + pitch rate: ' in moving
+        assert "pitch rate" not in still
+        assert 'title="α = θ − φ: ' in still
+        p = probe(fast, 0.75, 0.0)
+        angles = printed_angles(p)
+        for name, angle in (("θ", angles.theta), ("φ", angles.phi)):
+            assert f">{name} {angle:.1f}°<".replace("-", "−") in moving
+
+    def test_a_whole_turn_is_a_part_of_the_sum(self, fast: Solution):
+        """In reverse flow the wind may come from more than half a turn away."""
+        p = probe(fast, 0.75, 0.0)
+        back = replace(p, theta=0.2, phi=-3.0, pitch_rate=0.0, alpha=3.2 - math.tau)
+        words = "θ 11.4° − φ (−171.9°) + pitch rate 0.0° − 360° = α −176.7°"
+        assert printed_angles(back).sentence == words
 
 
 class TestDrawing:

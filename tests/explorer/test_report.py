@@ -114,7 +114,7 @@ class TestReport:
             change, word = part_change(part, NOW.power, BASELINE.power, band, SI)
             assert f"<small>{change} kW: {word}</small>" in page
         for caveat in FAST.caveats:
-            assert f"<li>{caveat.sentence}</li>" in page
+            assert f"<li>{SI.in_power_unit(caveat.sentence)}</li>" in page
         for name, number in versions().items():
             assert f"<tr><td>{name}</td><td>{number}</td></tr>" in page
         assert escape(json.dumps(FAST.design.to_dict()["twist"]), quote=False) in page
@@ -208,6 +208,9 @@ class TestReport:
         first = page.split('data-report="total-power">')[1]
         assert first.startswith(f"{NOW.power.total / 745.699872:,.0f} hp".replace(",", "\u2009"))
         assert "total power [hp]" in page
+        cares = "".join(re.findall(r'<ul class="care">.*?</ul>', page, re.S))
+        assert "hp" in cares
+        assert "kW" not in cares
 
     def test_a_design_that_is_not_trimmed_is_refused_in_a_sentence(self):
         heavy = replace(NOW, status=Status.NOT_CONVERGED, message="Too heavy.")

@@ -1,5 +1,6 @@
 """Panels as functions of what is known now, without a page."""
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import replace
@@ -27,6 +28,7 @@ from explorer.views.waterfall import WATERFALL
 from explorer.views.worth import slopes_work, twist_slopes, worth
 from explorer.workers.call import at_once
 from rotor import doubt
+from rotor.design import Harmonic
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
 
@@ -148,9 +150,9 @@ class TestWhileADragGoesOn:
         assert after["sure-band"].text != before["sure-band"].text
 
     def test_so_do_the_rows_of_the_doubt_greyed(self, rest: PageState):
-        assert "rx-faded" not in TRUST.view(rest)["trust.doubts"]
+        assert "data-stale" not in TRUST.view(rest)["trust.doubts"]
         during = TRUST.view(moved(rest, CHANGED))["trust.doubts"]
-        assert during.count("rx-faded") == 1
+        assert during.count("data-stale") == 1
         assert TRUST.view(rest)["trust.doubts"] in during
 
     def test_slopes_are_stale_until_it_rests(self, rest: PageState):
@@ -193,7 +195,9 @@ def test_axes_hold_while_the_data_fit():
 
 def test_the_change_from_the_reference_and_why():
     assert power_card(now_at(CHANGED))["power"].why.startswith("Lift moved")
-    assert pieces(now_at(CHANGED))["against"].text == " than as built"
+    built = f"{1e-3 * solved(OPENING).power.total:.0f}"
+    assert pieces(now_at(CHANGED))["against"].text == f" than as built ({built})"
+    assert pieces(now_at(CHANGED, OPENING))["against"].text == f" than A ({built})"
     assert power_card(now_at(OPENING))["power"].why == ""
     assert not pieces(now_at(OPENING)).keys() & {"moved", "against"}
 
@@ -207,11 +211,11 @@ class TestWithoutATrim:
         assert pieces(lost).keys() == {"", "wide", "problem"}
         assert pieces(lost)["problem"].text == f" has no trim: {SENTENCE.rstrip('.')}"
         assert power_card(lost) == power_card(good)
-        assert {one.faded for one in strip(lost)["strip"]} == {True}
-        assert {one.faded for one in strip(good)["strip"]} == {False}
+        assert {one.stale for one in strip(lost)["strip"]} == {True}
+        assert {one.stale for one in strip(good)["strip"]} == {False}
         assert worth(lost)["worth"] == {}
         for name, table in DETAILS.view(lost).items():
-            assert "rx-faded" in table
+            assert "data-stale" in table
             assert DETAILS.view(good)[name] in table
         assert SENTENCE in TRUST.view(lost)["trust.status"]
         assert "trust.doubts" not in TRUST.view(lost)
@@ -321,3 +325,30 @@ def test_more_than_the_engines_give_is_said_in_the_line():
     assert fast.status.words == f"engines give only {number(2327.0)} kW"
     assert "The rotors need" in fast.status.title
     assert "engines" not in line(flown(replace(OPENING, advance_ratio=0.3))).status.words
+
+
+def test_less_power_by_a_twist_that_nothing_on_board_makes_is_not_green():
+    """And the line says so. The same waves in A are no part of the change."""
+    active = replace(
+        OPENING,
+        advance_ratio=0.3,
+        twist_per_rev=(Harmonic(2, math.radians(1.0), math.radians(40.0)),),
+    )
+    saving = min(
+        (
+            replace(active, twist_per_rev=(replace(active.twist_per_rev[0], phase=phase),))
+            for phase in (0.0, math.pi)
+        ),
+        key=lambda inputs: solved(inputs).power.total,
+    )
+    shown = pieces(soon(now_at(saving)))
+    assert shown["more"].text == " less"
+    assert shown["moved"].kind == ""
+    assert (
+        shown["against"].text
+        == f" than as built ({number(1405.0)}) (no actuator on board makes this)"
+    )
+    built = replace(OPENING, advance_ratio=0.3, built_outer=-2.0)
+    assert "actuator" not in line_text(soon(now_at(built)))
+    more = replace(saving, built_outer=3.0)
+    assert "actuator" not in line_text(soon(now_at(more, saving)))

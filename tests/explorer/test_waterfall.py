@@ -83,12 +83,12 @@ def test_it_gives_way_after_each_trim_and_is_shown_whole_or_not_at_all():
     )
     drawn = shown(known)
     assert "All switched on" in drawn["details.waterfall"]
-    assert "rx-faded" not in drawn["details.waterfall"]
+    assert "data-stale" not in drawn["details.waterfall"]
     assert re.fullmatch(r"[+−]\d+\.\d kW here", costs(known)["switch.costs"]["compressibility"])
     assert "[hp]" in shown(in_units(known))["details.waterfall"]
     for other in (replace(now_at(0.3), memory=known.memory), replace(known, problem="No trim.")):
         stale = shown(other)["details.waterfall"]
-        assert stale.count("rx-faded") == 1
+        assert stale.count("data-stale") == 1
         assert drawn["details.waterfall"] in stale
     assert [one.key for one in waterfall_work(turned(known))] == [work.key]
 

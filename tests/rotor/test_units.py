@@ -1,15 +1,20 @@
 """Units and numbers in print, beside what a hand writes."""
 
 import math
+import re
+from pathlib import Path
 
 import pytest
 
+import explorer
+import rotor
 from rotor.support import units
 from rotor.support.units import (
     degrees_text,
     digits_text,
     power_text,
     power_unit,
+    seconds_text,
     typographic,
     unit_of,
 )
@@ -71,3 +76,19 @@ def test_a_hyphen_before_a_number_is_a_minus_and_one_within_a_word_is_not():
 
 def test_digits():
     assert [digits_text(value) for value in (8.0, -3.0, 0.25, 1e-7)] == ["8", "-3", "0.25", "1e-07"]
+
+
+@pytest.mark.parametrize(
+    ("seconds", "text"),
+    [(0.04, "0.0 s"), (4.23, "4.2 s"), (9.96, "10 s"), (437.6, "438 s"), (86_400.0, "86400 s")],
+)
+def test_seconds_are_digits_and_no_power_of_ten(seconds: float, text: str):
+    assert seconds_text(seconds) == text
+
+
+def test_no_text_prints_seconds_with_an_exponent():
+    """`.2g` of 440 s is 4.4e+02 s."""
+    exponent = re.compile(r":\.?\d*g\} s\b")
+    for package in (rotor, explorer):
+        for path in Path(str(package.__file__)).parent.rglob("*.py"):
+            assert not exponent.search(path.read_text(encoding="utf-8")), path

@@ -17,9 +17,18 @@ from explorer.model.session_state import ScreenState, SessionState, same_but_fli
 from explorer.model.units import UNITS, Units
 from explorer.parts.frame import LecturePart
 from explorer.scene.camera import FittedCamera
-from explorer.story.facts import StepFacts, facts_at, words_of
+from explorer.story.facts import facts_at
+from explorer.story.numbers import ControlStop, StepFacts, words_of
 from explorer.story.records import answer_record, step_record
-from explorer.story.steps import STEPS, Figure, compared_inputs, compared_quantities, view_of
+from explorer.story.sides import side_names
+from explorer.story.steps import (
+    STEPS,
+    Figure,
+    compared_inputs,
+    compared_quantities,
+    on_one_line,
+    view_of,
+)
 from explorer.text.glossary import hint
 from explorer.views.page_state import PageState
 from explorer.views.vibration import index_band
@@ -61,6 +70,7 @@ CASES = {**DOCUMENT, **EXAMPLES}
 _NO_CASE = "–"
 
 
+OTHER_DESIGN = "The page shows another design than this step: its text and chart are about its own."
 _WORDS = "Ten steps. Each sets the page, asks you to guess and gives the answer. End restores your design."
 
 
@@ -297,8 +307,9 @@ class LecturePanel:
             own = {**facts.words(units), **words_of(facts.stops[place.stop].numbers, units)}
             values = {
                 **{name: Figure(words) for name, words in own.items()},
-                **self._compared(state, units),
+                **self._compared(state, units, facts.stops[place.stop]),
             }
+        a, b = self._side_names(state)
         none = Figure("–" if guessed else "?")
         shown = [(caption, values.get(name, none)) for name, caption in step.figures]
         bridge.set(
@@ -309,18 +320,59 @@ class LecturePanel:
                 answer=answer_record(step, facts, units) if guessed and facts is not None else None,
                 stop=place.stop,
                 figures=[(caption, one.value, one.within) for caption, one in shown],
+                a=a,
+                b=b,
+                note=self._note(),
                 busy=state is None,
                 problem=answer if isinstance(answer, str) else "",
             ),
         )
 
-    def _compared(self, state: SessionState, units: Units) -> dict[str, Figure]:
-        """What is seen, with the bands of the line once they are known."""
+    def _side_names(self, state: SessionState | None) -> tuple[str, str]:
+        """Names of A and B of the solution on the page, or of the sliders until there is one."""
+        if self.place is None:
+            return "", ""
+        step = STEPS[self.place.step]
+        if step.against is None:
+            return "", ""
+        if state is None or state.pin is None:
+            b, a = self._designs()
+        else:
+            b, a = state.inputs, state.pin.inputs
+        return side_names(step.text, self._stop(), a, b)
+
+    def _stop(self) -> ControlStop | None:
+        """The place of the control, its designs with the rotor that the user brought in the menu; None until known."""
+        if self.place is None:
+            return None
+        facts = self._facts(self.place.step)
+        if facts is None:
+            return None
+        stop = facts.stops[self.place.stop]
+        against = None if stop.against is None else self._kept(stop.against)
+        return replace(stop, inputs=self._kept(stop.inputs), against=against)
+
+    def _note(self) -> str:
+        """That the solution on the page is of another design than the step's; empty where it is not, or on its way."""
+        stop, state = self._stop(), self._state
+        if stop is None or state is None:
+            return ""
+        if state.inputs == stop.inputs or state.inputs != self._context.inputs():
+            return ""
+        return OTHER_DESIGN
+
+    def _compared(self, state: SessionState, units: Units, stop: ControlStop) -> dict[str, Figure]:
+        """What is seen, with the bands of the line once they are known, and what the step knows at this place."""
+        on_page = state.inputs == self._kept(stop.inputs)
         now = replace(self._now(), state=state)
         sure = now.answers.get(shown_doubt(now)[0].key)
         a = state.reference
         both = None if sure is None or not a.converged else (doubt(now.analyses.of(a)), sure)
-        return compared_quantities(state.solution, a, units, both, index_band(now))
+        vibration = index_band(now)
+        if vibration is None and on_page:
+            vibration = stop.index_band
+        values = compared_quantities(state.solution, a, units, both, vibration)
+        return values | _by_two_models(values, stop, units, on_page)
 
     def _fly(self, advance_ratio: float) -> None:
         self._context.set_inputs(replace(self._context.inputs(), advance_ratio=advance_ratio))
@@ -364,13 +416,27 @@ class LecturePanel:
             return
         place = replace(place, stop=min(max(int(stop), 0), len(facts.stops) - 1))
         if place != self.place:
-            self._change(place)
+            # The sliders first, so that the place never stands beside those of another.
+            self.place = place
             self._move()
+            self._show()
 
     def _change(self, place: StoryPlace) -> None:
         """Another place within the step."""
         self.place = place
         self._show()
+
+
+def _by_two_models(
+    values: dict[str, Figure], stop: ControlStop, units: Units, on_page: bool
+) -> dict[str, Figure]:
+    """Changes without bands, and beside each what the other inflow model gives, where that design is `on_page`."""
+    found = dict[str, Figure]()
+    for name, other in stop.other_model.items():
+        if name in values:
+            within = f"wake {other.words(units)}" if on_page else ""
+            found[name] = Figure(values[name].value, on_one_line(within))
+    return found
 
 
 def _task(step: int) -> Call:

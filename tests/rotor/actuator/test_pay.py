@@ -148,6 +148,11 @@ def test_where_twist_saves_nothing_no_actuator_pays():
     assert not flat.worthwhile
     assert pay_sentence(flat).startswith("No actuator pays: unlimited twist saves")
     table = pay_table([even, flat])
+    powers = [name for name in table.columns if name.endswith(("kW", " W"))]
+    assert powers == ["ideal kW", "drive ≤ kW"]
+    for sentence in (pay_sentence(even), pay_sentence(flat)):
+        assert "kW" in sentence
+        assert " W" not in sentence
     assert table.rows[1][-1] == "–"
     assert float(table.rows[0][-1]) == pytest.approx(
         even.mass_allowed(even.requirement.twist), abs=0.06

@@ -158,7 +158,7 @@ def describe_changes(record: Record, units: Mapping[str, Any]) -> None:
         for title, system in units.items():
             name = f"change {number}/{title}"
             line = record.make(
-                name, "explorer.text.line.change_pieces", change, band, "A", system, known, " x",
+                name, "explorer.text.line.change_pieces", change, band, "A", 1e6, system, known, " x",
                 sourced=sourced, built=built,
             )  # fmt: skip
             record.keep(f"{name}/pieces", line)
