@@ -32,6 +32,8 @@ FIBRE: tuple[Rgb, Rgb] = ((150, 84, 36), (255, 160, 70))
 """At rest, and at full voltage."""
 ARROW: Rgb = (6, 48, 190)
 LEADER: Rgb = (128, 136, 150)
+_LABEL_OUT = 1.15
+"""Labels stand so far behind the pitch axis, over the distance of the trailing edge, which is nearest to the camera."""
 TWIST_EXAGGERATION = 8.0
 """By how much the actuator's part of the twist is exaggerated; the numbers stay true."""
 
@@ -169,34 +171,37 @@ def _labels(
     tip: float,
 ) -> tuple[tuple[tuple[str, str, Array], ...], Array]:
     """Words, and the lines that lead to what they name. `tip`: its twist [rad]."""
-    places: list[tuple[str, str, Array, Array]] = []
+    labels: list[tuple[str, str, Array]] = []
+    lines: list[Array] = []
+    behind = _LABEL_OUT * float(blade.rings[:, 0, 0].min())
 
-    def put(text: str, r: float, y: float, z: float, above: float, kind: str = "lifted") -> None:
-        foot = lifted.twisted_point(blade, r, y, z, float(twist(np.array([r]))[0]))
-        places.append((kind, text, foot, foot + np.array([0.0, 0.0, above])))
+    def put(text: str, r: float, y: float, z: float) -> None:
+        here = float(twist(np.array([r]))[0])
+        named = lifted.twisted_point(blade, r, y, z, here)
+        place = lifted.twisted_point(blade, r, behind, z, here)
+        labels.append(("lifted", text, place))
+        lines.append(np.stack((named, place)))
 
     named = {name: f"{mass} kg of {name}" for name, mass in mass_parts(installed).items()}
     what = named.get(installed.actuator.noun[1], installed.actuator.name)
     if installed.actuator.on_skin:
         what += f" at {'−45' if inputs.crossed else '45'}°"
     inner, outer = blade.spans[0][0], blade.spans[-1][1]
-    for name, r, y, above in (
-        ("electronics", sum(blade.box) / 2.0, 0.0, 0.95),
-        ("leads", 0.5 * (blade.box[1] + inner), 0.09, 0.45),
-        ("nose weight", inner + 0.88 * (outer - inner), 0.12, 0.5),
+    for name, r, y in (
+        ("electronics", sum(blade.box) / 2.0, 0.0),
+        ("leads", 0.5 * (blade.box[1] + inner), 0.09),
+        ("nose weight", inner + 0.88 * (outer - inner), 0.12),
     ):
         if name in named:
-            put(named[name], r, y, 0.1 if name == "electronics" else 0.02, above)
+            put(named[name], r, y, 0.1 if name == "electronics" else 0.02)
     for k, (low, high) in enumerate(blade.spans):
         drive = inputs.drive_text(installed, k)
         text = f"{what}, {drive}" if not k else f"{k + 1}: {drive}"
-        put(text, low + 0.45 * (high - low), 0.05, 0.03, 0.6 if k % 2 == 0 else 0.25)
+        put(text, low + 0.45 * (high - low), 0.05, 0.03)
     if round(math.degrees(tip), 2):
         words = (
             f"{number(math.degrees(tip), 2, sign=True)}° at the tip, drawn × {TWIST_EXAGGERATION:g}"
         )
-        put(words, 1.0, -0.52, 0.0, -0.45, "tip")
-    lines = [np.stack((foot, head)) for _, _, foot, head in places if head[2] > foot[2]]
-    return tuple((kind, text, head) for kind, text, _, head in places), np.stack(
-        lines
-    ) if lines else _NO_SEGMENTS
+        end = lifted.twisted_point(blade, 1.0, -0.52, 0.0, float(twist(np.ones(1))[0]))
+        labels.append(("tip", words, end - np.array([0.0, 0.0, 0.45])))
+    return tuple(labels), np.stack(lines) if lines else _NO_SEGMENTS

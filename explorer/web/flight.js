@@ -167,7 +167,8 @@
     const scopes = [['here', 'here', here], ['flight', 'over the mission', !here]].map(([name, words, chosen]) =>
       `<button data-do="balance" data-value="${name}" aria-pressed="${chosen}">${words}</button>`);
     const net = bars.find(bar => bar.total);
-    const headline = net ? `<b class="rxf-num rxf-earns-sum" data-kind="${net.kind}">${text(net.text)} ${text(unit)}</b>` : '';
+    const earned = net && `${text(net.text)} ${text(unit)}`;
+    const headline = net ? `<b class="rxf-num rxf-earns-sum" data-kind="${net.kind}">${earned}</b>` : '';
     earns.innerHTML = `<div class="rxf-head"><b>Extra power</b>${headline}<span role="group">${scopes.join('')}</span>
         <span class="rxf-dim">${text([unit, where].filter(Boolean).join(', '))}</span>
         <button class="rxf-push" data-do="suppose" data-value="on"

@@ -106,11 +106,12 @@
   });
   // The browser makes no click where what was pressed is drawn anew before the release, as a card is with every answer:
   // then the same control under the pointer is clicked here.
-  let pressed = null;
+  let pressed = null, onDisk = null;
   const controlOf = event => closest(event, '[data-do], [data-page], [data-harmonic]');
   const NAMES = ['do', 'value', 'page', 'harmonic'];
   document.addEventListener('pointerdown', event => {
     pressed = event.button === 0 ? {target: event.target, control: controlOf(event)} : null;
+    if (closest(event, 'canvas, .rxf-plan')) onDisk = event.clientX;
   }, true);
   document.addEventListener('pointerup', event => {
     const before = pressed?.control, control = controlOf(event), lost = before && !pressed.target.isConnected;
@@ -265,12 +266,25 @@
     pin.toggleAttribute('data-on', Boolean(bar.pinned));
     pin.querySelector('span').textContent = bar.pinned ? 'A pinned ▾' : 'Pin A';
     pin.ariaLabel = bar.pinned ? `A is ${bar.pinned.title}` : 'Pin A';
-    page.toggleAttribute('data-drawer', Boolean(bar.drawer));
+    placeDrawer(bar.drawer);
     sayOpen();
     for (const button of root.querySelectorAll('.rxf-tools [data-do=drawer]'))
       button.ariaExpanded = String(button.dataset.value === bar.drawer);
     if (!part('menu').hidden && bar.pinned) pinMenu(pin, true);
   });
+
+  // A drawer stands beside the stage. The section that a press on the disk opens lies over the cards at the left, or
+  // over the open rail of a narrow window, so that the disk stays under the pointer; not over the pressed place itself.
+  let drawer = '';
+  function placeDrawer(name) {
+    if (name === drawer) return;
+    drawer = name;
+    if (!name) { delete page.dataset.drawer; return; }
+    const width = parseFloat(getComputedStyle(page).getPropertyValue('--rx-drawer'));
+    const covers = innerWidth <= 1100 && page.dataset.rail === 'open' ? 'rail' : 'cards';
+    const free = onDisk !== null && (covers === 'rail' ? onDisk < innerWidth - width : onDisk > width);
+    page.dataset.drawer = name === 'probe' && free ? covers : 'beside';
+  }
 
   function pinMenu(button, keep) {
     const menu = part('menu'), pinned = state.bar?.pinned;
@@ -313,7 +327,7 @@
   const COVERING = [
     '.rxf-inset', '.rxf-field', '.rxf-fly', '.rxf-earns', '.rxf-open', '.rxf-views', '.rxs-figures',
   ];
-  const BETWEEN = 4, EDGE = 18, LOW = 400;  // [px] From a card and from the edge to the subject; height of a low stage.
+  const BETWEEN = 4, EDGE = 18;  // [px] From a card and from the edge, which words round the rim need, to the subject.
   // Width over height of what is looked at: rim and helicopter; the lifted blade with the helicopter behind it. And the
   // rim as an ellipse in the box of the aircraft: the upper corners of the box are free.
   const SHAPE = {aircraft: 2.15, blade: 2.5}, RIM = {centre: .32, wide: .45, high: .33};
@@ -348,8 +362,8 @@
   }
   // How high the card of power usually reaches [px]: the verdict, in columns or as a sentence, hides the vibration.
   function usualPower({width, height}) {
-    if (page.hasAttribute('data-flight') && (height <= 570 || width <= 860)) return width > 640 ? 42 : 78;
-    if (page.hasAttribute('data-flight')) return width > 900 && height > 760 ? 156 : 100;
+    if (page.hasAttribute('data-flight') && (height <= 700 || width <= 860)) return width > 640 ? 42 : 78;
+    if (page.hasAttribute('data-flight')) return width > 900 && height > 760 ? 190 : 110;
     if (small.matches) return state.vibration ? 70 : 40;
     const why = width > 860 || height > 560 ? 54 : 0;
     return (state.vibration ? 98 : 66) + why;
@@ -369,10 +383,8 @@
   // The free rectangle in which a subject of this width over height is largest; all of the stage where none is free.
   function largestFree(cards, width, height, shape) {
     const within = (value, most) => value > 0 && value < most;
-    // Words round the rim reach beyond the subject; where the stage is low the rotor has that room too.
-    const edge = height > LOW || small.matches ? EDGE : 0;
-    const lefts = [edge, ...cards.map(card => card.right).filter(x => within(x, width))];
-    const rights = [width - edge, ...cards.map(card => card.left).filter(x => within(x, width))];
+    const lefts = [EDGE, ...cards.map(card => card.right).filter(x => within(x, width))];
+    const rights = [width - EDGE, ...cards.map(card => card.left).filter(x => within(x, width))];
     const tops = [0, ...cards.map(card => card.bottom).filter(y => within(y, height))];
     const bottoms = [height, ...cards.map(card => card.top).filter(y => within(y, height))];
     let best = {left: 0, right: width, top: 0, bottom: height}, most = 0;
@@ -424,16 +436,19 @@
       for (let above = of; above; above = above.parent) if (!above.visible) return false;
       if (!of || !viewer().camera) return false;
       const point = project(of, label.at), {offsetWidth: width, offsetHeight: height} = element;
-      const left = clamp(point.left - width / 2, 4, canvas.width - width - 4), wanted = Math.max(4, point.top - height);
-      // None lies behind a card or over another: it goes above or below what it meets, but not far from its point.
-      // Below, it may cover what it names.
-      const others = [...taken, ...cards], cost = top => top > wanted ? 2 * (top - wanted) : wanted - top;
+      const left = clamp(point.left - width / 2, 4, canvas.width - width - 4);
+      // What is named at the lifted blade stands below its point: the helicopter is above.
+      const hangs = label.kind === 'lifted', wanted = hangs ? point.top : Math.max(4, point.top - height);
+      // None lies behind a card or over another: it goes above or below what it meets, but not far from its point, and
+      // rather not over what it names.
+      const others = [...taken, ...cards];
+      const cost = top => (top > wanted) === hangs ? Math.abs(top - wanted) : 2 * Math.abs(top - wanted);
       const met = top => others
         .some(([x, y, w, h]) => left < x + w && x < left + width && top < y + h && y < top + height);
       const tops = [wanted, ...others.flatMap(([, y,, h]) => [y - height - 2, y + h + 2])]
         .filter(top => top >= 4 && cost(top) < LABEL_SHIFT && !met(top)).sort((one, two) => cost(one) - cost(two));
       const top = tops[0] ?? wanted;
-      element.style.setProperty('--rx-lead', `${Math.max(wanted - top, 0)}px`);
+      element.style.setProperty('--rx-lead', `${Math.max(hangs ? top - wanted : wanted - top, 0)}px`);
       element.style.setProperty('--rx-lead-at', `${point.left - left}px`);
       element.style.transform = `translate(${left.toFixed(1)}px, ${top.toFixed(1)}px)`;
       const free = point.seen && top + height < canvas.height && tops.length > 0;
@@ -470,8 +485,20 @@
     if (!state.prompt || !of || !viewer().camera) return;
     const point = project(of, state.prompt.at), width = prompt.offsetWidth;
     const left = clamp(point.left - 0.8 * width, 8, box.width - width - 8);
-    const top = clamp(point.top + 20, 8, box.height - 60);
+    const rim = rimOfDisk().filter(on => on.left > left && on.left < left + width).map(on => on.top + 12);
+    const top = clamp(Math.max(point.top + 20, ...rim), 8, box.height - 60);
+    prompt.style.setProperty('--rx-lead', `${Math.max(top - point.top, 0)}px`);
+    prompt.style.setProperty('--rx-lead-at', `${point.left - left}px`);
     prompt.style.transform = `translate(${left}px, ${top}px)`;
+  }
+  // Points of the rim of the disk on the canvas; none where there is no disk.
+  function rimOfDisk() {
+    const mesh = node('/rotor/disk/field')?.getObjectByProperty('isMesh', true);
+    if (!mesh) return [];
+    if (!mesh.geometry.boundingBox) mesh.geometry.computeBoundingBox();
+    const {min, max} = mesh.geometry.boundingBox, [x, y, z] = ['x', 'y', 'z'].map(axis => (min[axis] + max[axis]) / 2);
+    return Array.from({length: 48}, (_, k) => 2 * Math.PI * k / 48).map(turn =>
+      project(mesh, [x + (max.x - x) * Math.cos(turn), y + (max.y - y) * Math.sin(turn), z]));
   }
   requestAnimationFrame(look);
   // viser's notifications lie in the top layer: its own lies below our cards. Its remark on drawing in software is said

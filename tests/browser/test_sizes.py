@@ -350,6 +350,65 @@ def test_what_folds_in_a_low_window_opens_by_a_press_and_closes_again(visit: Vis
     page.locator("[data-name=power] [data-page=scale]").wait_for()
 
 
+RIM_OF_PLAN = """() => { const {left, right, top, bottom} =
+    document.querySelector('.rxf-plan svg circle').getBoundingClientRect(); return [left, right, top, bottom]; }"""
+# Whether the disk, in the scene or as a plan, is what lies at a place of the window.
+BARE = "([x, y]) => document.elementFromPoint(x, y).matches('canvas, .rxf-plan *')"
+
+
+@pytest.mark.parametrize("view", ["3d", "disk"])
+@pytest.mark.parametrize(
+    ("size", "mode"),
+    [((1366, 650), "explore"), ((861, 481), "explore"), ((985, 554), "optimise")],
+    ids=lambda value: "x".join(map(str, value)) if isinstance(value, tuple) else value,
+)
+def test_a_press_on_the_disk_leaves_it_where_it_is(
+    visit: Visit, size: tuple[int, int], mode: str, view: str
+):
+    """The section that opens lies over the cards, or over the rail of a narrow window."""
+    watched = visit(size=size)
+    watched.quiet()
+    page = watched.page
+    if mode != "explore":
+        watched.mode(mode)
+    page.locator(f"[data-do=view][data-value='{view}']").click()
+    if view == "disk":
+        page.wait_for_function("() => RX.state.plan?.values")
+
+    def rim() -> list[float]:
+        return page.evaluate(RIM_OF_PLAN if view == "disk" else f"({SUBJECT})('/rotor/disk/field')")
+
+    before = watched.at_rest(rim)
+    left, right, top, bottom = before
+    place = [left + 0.62 * (right - left), top + 0.8 * (bottom - top)]
+    for k in range(2):  # The first press opens the section, the second shows another one.
+        page.mouse.click(place[0] + 8 * k, place[1])
+        page.wait_for_selector('[data-explorer="drawer"][data-name="probe"]')
+        assert watched.at_rest(rim) == pytest.approx(before, abs=0.5)
+        assert page.evaluate(BARE, place)
+        assert page.evaluate(MEASURE)["hit"] == []
+    watched.drawer("share")  # It is no part of what is looked at: the disk makes room for it.
+    assert watched.at_rest(rim) != pytest.approx(before, abs=5.0)
+    page.get_by_role("button", name="Close").first.click()
+    assert watched.at_rest(rim) == pytest.approx(before, abs=0.5)
+
+
+def test_the_section_never_lies_over_the_pressed_place(visit: Visit):
+    watched = visit(size=(861, 940))
+    watched.quiet()
+    page = watched.page
+    left, right, top, bottom = watched.at_rest(
+        lambda: page.evaluate(f"({SUBJECT})('/rotor/disk/field')")
+    )
+    page.mouse.click(left + 0.1 * (right - left), 0.5 * (top + bottom))
+    page.wait_for_selector('[data-explorer="drawer"][data-name="probe"]')
+    drawer = page.locator("[data-dock-region=left]")
+    left, *_ = watched.at_rest(lambda: page.evaluate(f"({SUBJECT})('/rotor/disk/field')"))
+    edge = drawer.bounding_box()
+    assert edge is not None
+    assert left > edge["x"] + edge["width"]
+
+
 def test_sliders_show_their_values_from_the_first_view(visit: Visit):
     page = visit(size=LARGE).page
     fields = page.locator(
