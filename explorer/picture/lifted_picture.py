@@ -175,10 +175,10 @@ def _labels(
     lines: list[Array] = []
     behind = _LABEL_OUT * float(blade.rings[:, 0, 0].min())
 
-    def put(text: str, r: float, y: float, z: float) -> None:
+    def put(text: str, r: float, y: float, z: float, aside: float = 0.0) -> None:
         here = float(twist(np.array([r]))[0])
         named = lifted.twisted_point(blade, r, y, z, here)
-        place = lifted.twisted_point(blade, r, behind, z, here)
+        place = lifted.twisted_point(blade, r + aside, behind, z, here)
         labels.append(("lifted", text, place))
         lines.append(np.stack((named, place)))
 
@@ -187,13 +187,14 @@ def _labels(
     if installed.actuator.on_skin:
         what += f" at {'−45' if inputs.crossed else '45'}°"
     inner, outer = blade.spans[0][0], blade.spans[-1][1]
-    for name, r, y in (
-        ("electronics", sum(blade.box) / 2.0, 0.0),
-        ("leads", 0.5 * (blade.box[1] + inner), 0.09),
-        ("nose weight", inner + 0.88 * (outer - inner), 0.12),
+    # The first two are near each other: their words stand further apart than they are.
+    for name, r, y, z, aside in (
+        ("electronics", sum(blade.box) / 2.0, 0.0, 0.1, -0.08),
+        ("leads", 0.5 * (blade.box[1] + inner), 0.09, 0.02, 0.06),
+        ("nose weight", inner + 0.88 * (outer - inner), 0.12, 0.02, 0.0),
     ):
         if name in named:
-            put(named[name], r, y, 0.1 if name == "electronics" else 0.02)
+            put(named[name], r, y, z, aside)
     for k, (low, high) in enumerate(blade.spans):
         drive = inputs.drive_text(installed, k)
         text = f"{what}, {drive}" if not k else f"{k + 1}: {drive}"

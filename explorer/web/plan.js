@@ -7,6 +7,7 @@
   const RADII = 40, AZIMUTHS = 120, ROOM = 34;
   const LABEL = {get width() { return 158 * scale(); }, get height() { return 40 * scale(); }};
   const CARDS = 288, STACKED = 350;  // [px] Cards beside the circle, and above and below it.
+  const DRAWER = 360;  // [px] A drawer over the cards, which lies over the circle only where there is no room beside.
   const MOVING = 320;  // [px] Along the edge of the field while something moves.
   const COLOURS = {
     stall: 'var(--rx-stall)', past_static: 'var(--rx-stall)', reverse_flow: 'var(--rx-dim)',
@@ -81,9 +82,12 @@
     const [left, right, top, bottom] = alone ? [12, 12, 12, 12]
       : wide ? [CARDS * by, both ? LABEL.width + 26 : 70, ROOM, ROOM]
         : held ? [34, 34, high + 20, 104] : [8, 8, high, height - low + ROOM];
+    const radius = Math.max(60, Math.min(height - top - bottom, width - left - right) / 2);
+    const middle = left + (width - left - right) / 2;
+    const aside = Math.min(DRAWER * by, width - right - 2 * radius) + radius;
     return {
-      width, height, wide, both, alone, radius: Math.max(60, Math.min(height - top - bottom, width - left - right) / 2),
-      x: left + (width - left - right) / 2, y: top + (height - top - bottom) / 2,
+      width, height, wide, both, alone, radius,
+      x: wide ? Math.max(middle, aside) : middle, y: top + (height - top - bottom) / 2,
       chart: chart && {
         width: Math.max((chart.clientWidth - 32) / by, 80), height: Math.max((chart.clientHeight - 16) / by - 20, 40),
       },
@@ -174,12 +178,15 @@
   const parted = (one, other) => side(one.end, one.tip, other.end) !== side(one.end, one.tip, other.tip);
   const cross = (one, other) => one !== other && parted(one, other) && parted(other, one);
   const circleAt = (centre, r, style) => `<circle cx="${centre[0]}" cy="${centre[1]}" r="${r}" ${style}/>`;
-  const drawTie = ({region: {name}, end, tip}) => end === tip ? '' : `
+  // What stands at the left lies below a drawer that opens over the cards.
+  const sideOf = ({x}) => x < layout.x ? 'left' : 'right';
+  const drawTie = ({region: {name}, column, end, tip}) => end === tip ? '' : `<g data-side="${sideOf(column)}">
     <path d="${trace([end, tip])}" stroke="var(--rx-paper)" stroke-width="3.5" opacity=".8"/>
     <path d="${trace([end, tip])}" stroke="${COLOURS[name]}" stroke-width="1.4" data-tie/>
-    ${circleAt(tip, 3.5, `fill="${COLOURS[name]}" stroke="var(--rx-paper)" stroke-width="1.5"`)}`;
-  const labelOf = ({region: {name, title, words}, column: {x}, top, size}) => `<div class="rxf-card rxf-region"
-    data-region="${name}" style="--c:${COLOURS[name]};left:${x}px;top:${top}px;height:${size}px"><b>${text(title)}</b>
+    ${circleAt(tip, 3.5, `fill="${COLOURS[name]}" stroke="var(--rx-paper)" stroke-width="1.5"`)}</g>`;
+  const labelOf = ({region: {name, title, words}, column, top, size}) => `<div class="rxf-card rxf-region"
+    data-region="${name}" data-side="${sideOf(column)}"
+    style="--c:${COLOURS[name]};left:${column.x}px;top:${top}px;height:${size}px"><b>${text(title)}</b>
     <span class="rxf-num">${text(words)}</span>${RX.price(name)}</div>`;
   const priceHeight = name => {
     const {lines, press} = RX.state.prices?.[name] ?? {lines: [], press: ''};

@@ -8,7 +8,7 @@ import pytest
 from watched import Watched
 
 from explorer.model.inputs import Inputs
-from explorer.picture.camera_views import FIELD_OF_VIEW, Covered, View, fit
+from explorer.picture.camera_views import Covered, View, fit, seen_at
 from rotor.files.make_design import uh60a_rotor
 
 SIZE = (1500, 940)  # Room for the disk between drawer, rail and cards.
@@ -45,8 +45,7 @@ def eye(watched: Watched) -> np.ndarray:
 
 def _cover(watched: Watched) -> Covered:
     """What cards cover of the canvas, as the page says."""
-    above, below = watched.page.evaluate("() => RX.covered")
-    return Covered(min(above, 0.45), min(below, 0.45))
+    return Covered(*watched.page.evaluate("() => RX.covered"))
 
 
 def stands(watched: Watched, view: View) -> bool:
@@ -62,15 +61,12 @@ def stands(watched: Watched, view: View) -> bool:
 def click_disk(watched: Watched, r: float, psi_deg: float) -> tuple[float, float]:
     """Click where the plan shows (r, ψ); the pixel of it."""
     box = watched.box(watched.page.locator("canvas").first)
-    camera = fit("top", RADIUS, box["width"] / box["height"], cover=_cover(watched))
-    scale = 0.5 * box["height"] / math.tan(FIELD_OF_VIEW / 2.0)
+    aspect = box["width"] / box["height"]
+    camera = fit("top", RADIUS, aspect, cover=_cover(watched))
     psi = math.radians(psi_deg)
-    x, y = RADIUS * r * math.sin(psi), -RADIUS * r * math.cos(psi) + float(camera.look_at[0])
-    depth = float(camera.position[2])
-    place = (
-        box["x"] + box["width"] / 2 + scale * x / depth,
-        box["y"] + box["height"] / 2 - scale * y / depth,
-    )
+    point = RADIUS * r * np.array([[math.cos(psi), math.sin(psi), 0.0]])
+    [(across, down)] = seen_at(camera, point, aspect)
+    place = box["x"] + across * box["width"], box["y"] + down * box["height"]
     watched.page.mouse.click(*place)
     return place
 
