@@ -185,7 +185,7 @@ class Page:
                 self.history = HistoryPanel(
                     context,
                     self.actuator.hand,
-                    self._carry,
+                    self._set_actuator,
                     start,
                     facts.kept.get(share.STEPS_KEPT),
                 )
@@ -513,8 +513,12 @@ class Page:
 
     def _carry(self, actuator: ActuatorInputs) -> None:
         """A link or a file has an actuator on board: show it."""
-        self.actuator.perform(SetHand(BY_HAND, vars(actuator)))
+        self._set_actuator(actuator)
         self.context.layout.show_mode("actuate")
+
+    def _set_actuator(self, actuator: ActuatorInputs) -> None:
+        """As if by hand, in whatever mode the page is."""
+        self.actuator.perform(SetHand(BY_HAND, vars(actuator)))
 
     def _default(self, opening: Inputs, label: str) -> None:
         """A slider was double-clicked."""

@@ -72,13 +72,14 @@ class HistoryPanel:
         self,
         context: TabContext,
         hand: Callable[[], HandSettings],
-        carry: Callable[[ActuatorInputs], None],
+        set_actuator: Callable[[ActuatorInputs], None],
         start: Inputs,
         stored: str | None,
     ) -> None:
-        """`hand`: what is set in Actuate; `carry` sets an actuator there and shows it. `stored`: the history as the
-        page kept it over a reload; None where it has none."""
-        self._context, self._hand, self._carry, gui = context, hand, carry, context.gui
+        """`hand`: what is set in Actuate; `set_actuator` sets it in any mode. `stored`: the history as the page kept it
+        over a reload; None where it has none."""
+        self._context, self._hand, gui = context, hand, context.gui
+        self._set_actuator = set_actuator
         self._lock = threading.RLock()
         before = share.read_history(stored, start)
         past, future = (
@@ -200,10 +201,10 @@ class HistoryPanel:
             return bool(self._history.past), bool(self._history.future)
 
     def _move(self, step: Step | None) -> None:
-        """Move the widgets, under the lock; a step of the actuator is shown in Actuate."""
+        """Move the widgets, under the lock; the mode stays."""
         inputs, actuator = step or (None, None)
         if actuator is not None and actuator != self._actuator():
-            self._carry(actuator)
+            self._set_actuator(actuator)
         if inputs is None or inputs == self._context.inputs():
             self._context.wake()
         else:

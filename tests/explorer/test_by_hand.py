@@ -91,7 +91,9 @@ def test_a_drag_with_pauses_is_one_undo(app: App, monkeypatch: pytest.MonkeyPatc
             await asyncio.sleep(0.3)
         await visitor.press("hold", False)
         await asyncio.sleep(0.3)
-        await visitor.move(BEGUN, -3.0)  # Another drag, by key.
+        for value in (-2.0, -2.5, -3.0):  # Another drag, by keys that follow each other.
+            await visitor.move(BEGUN, value)
+            await asyncio.sleep(0.02)
         await visitor.idle(wholly=False)
         for left in (-1.5, 0.0):
             assert visitor.frame["bar"]["undo"]
@@ -286,8 +288,8 @@ def test_a_voltage_is_a_step_of_its_own(app: App):
         await visitor.idle()
         await visitor.press("undo")
         await visitor.until(lambda: not any(page.actuator.inputs().drives))
-        assert page.context.layout.mode == "actuate"
         await visitor.idle()
+        assert page.context.layout.mode == "explore"
         assert page.context.inputs().advance_ratio == 0.25
         await visitor.press("redo")
         await visitor.until(lambda: page.actuator.inputs().drives[0] == 50.0)
