@@ -106,12 +106,12 @@
   });
   // The browser makes no click where what was pressed is drawn anew before the release, as a card is with every answer:
   // then the same control under the pointer is clicked here.
-  let pressed = null, onDisk = null;
+  let pressed = null, onDisk = null;  // Where from the left [px] the disk was pressed, if it was that last.
   const controlOf = event => closest(event, '[data-do], [data-page], [data-harmonic]');
   const NAMES = ['do', 'value', 'page', 'harmonic'];
   document.addEventListener('pointerdown', event => {
     pressed = event.button === 0 ? {target: event.target, control: controlOf(event)} : null;
-    if (closest(event, 'canvas, .rxf-plan')) onDisk = event.clientX;
+    onDisk = closest(event, 'canvas, .rxf-plan') ? event.clientX : null;
   }, true);
   document.addEventListener('pointerup', event => {
     const before = pressed?.control, control = controlOf(event), lost = before && !pressed.target.isConnected;
@@ -152,6 +152,7 @@
     if (closest(event, '*').matches(`select, input${presses ? ', button' : ''}`)) event.stopPropagation();
   });
   document.addEventListener('keydown', event => {
+    onDisk = null;
     // In a field, Escape leaves the field and no more.
     if (event.key !== 'Escape' || closest(event, 'input:not([type=range], [type=checkbox])')) return;
     if (!part('menu').hidden) part('menu').hidden = true;

@@ -223,6 +223,10 @@ def test_a_double_click_on_a_slider_or_its_name_sets_the_default_and_can_be_undo
 
 def test_the_blade_stops_for_the_hand_that_takes_it(watched: Watched):
     page = watched.page
+    # Its button is on a card: a drawer that a press on the disk has opened lies over it.
+    page.keyboard.press("Escape")
+    page.wait_for_function("() => !RX.state.bar.drawer")
+    watched.drawer("probe")
     page.keyboard.press("Space")
     page.get_by_role("button", name="Stop the rotor").wait_for()
     radius = watched.number("Radius r/R")
