@@ -2,6 +2,7 @@
 
 import math
 from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 import pytest
@@ -10,6 +11,7 @@ from watched import Watched
 from explorer.model.inputs import Inputs
 from explorer.picture.camera_views import Covered, View, fit, seen_at
 from rotor.files.make_design import uh60a_rotor
+from rotor.trim.solve import solve
 
 SIZE = (1500, 940)  # Room for the disk between drawer, rail and cards.
 START = Inputs(law="builtin")
@@ -48,12 +50,19 @@ def _cover(watched: Watched) -> Covered:
     return Covered(*watched.page.evaluate("() => RX.covered"))
 
 
+@cache
+def _tilt() -> float:
+    """Of the shaft [rad], which the camera follows."""
+    return solve(START.design()).controls.shaft_tilt
+
+
 def stands(watched: Watched, view: View) -> bool:
     """Whether the camera is where a view has it."""
     aspect = watched.page.evaluate(
         "() => (c => c.clientWidth / c.clientHeight)(document.querySelector('canvas'))"
     )
-    place, wanted = eye(watched), fit(view, RADIUS, aspect, cover=_cover(watched)).position
+    place = eye(watched)
+    wanted = fit(view, RADIUS, aspect, tilt=_tilt(), cover=_cover(watched)).position
     away = np.linalg.norm(place) / np.linalg.norm(wanted) - 1.0
     return bool(abs(away) < 0.02 and np.isclose(place[2], wanted[2], rtol=0.03))
 
