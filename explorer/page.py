@@ -19,6 +19,7 @@ from explorer.model.actuator_inputs import (
     ActuatorInputs,
     HandSettings,
     inputs_from_spec,
+    mission_over,
 )
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import PinResult
@@ -164,6 +165,7 @@ class Page:
         context.refreshing += [self.optimise.refresh, power_map.refresh, schedule.refresh]
         with context.layout.modes["actuate"]:
             self.actuator = ActuatorPanel(context, address)
+        self.optimise.mission = lambda design: mission_over(design, self.actuator.inputs().hours)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
 
     def _add_drawers(self, address: Address, facts: PageFacts) -> None:

@@ -26,12 +26,13 @@ from explorer.story.steps import (
 from explorer.text.design_words import listed
 from explorer.text.readout import limit_words
 from rotor import Solution, doubt, make_design, solve, vibration_front
-from rotor.actuator import FlightLeg, fly, try_actuator
+from rotor.actuator import fly, try_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import Harmonic
 from rotor.design.uncertain import uncertain_inputs
 from rotor.optimisation.doubt import difference_doubt
+from rotor.optimisation.mission import FlightLeg
 from rotor.optimisation.vibration import FrontPoint
 from rotor.trim.doubt import Doubt, sure_words, with_other_inflow
 from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist
@@ -392,7 +393,7 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
         _said(limits=listed(over), actuator=installed.actuator.name)
         | _said(sure_here=_sureness(here), sure_gross=_sureness(gross), sure_cost=_sureness(costs))
         | _said(sure=_net_sureness(verdict))
-        | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1], mu=SPEEDS[start])
+        | _of("mu", mu=SPEEDS[start])
         | _said(
             reach_low=f"{number(reach[0], 1, sign=True)}°",
             reach_high=f"{number(reach[1], 1, sign=True)}°",

@@ -15,7 +15,7 @@ from explorer.model.units import BLANK, SI, WATT, Unit, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, Verdict
-from rotor.actuator.verdict import flight_text
+from rotor.optimisation import Mission
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.markup import Content, Markup, tag
 from rotor.trim.doubt import MOST_OF_SMALL, Doubt, rounded_pair, sure_words, sureness
@@ -558,10 +558,17 @@ def fuel_words(verdict: Verdict) -> str:
     return banded(-saved, band, _FUEL, sign=True, sourced=verdict.sourced)
 
 
-def pair_words(verdict: Verdict) -> str:
-    """The two flight conditions of a verdict."""
-    first, second = verdict.baseline.pair.advance_ratios
-    return f"mean of {flight_text(first)} and {flight_text(second)}"
+def mission_words(mission: Mission) -> str:
+    """What a mean is taken over, for example `mean over hover, climb, cruise and fast (hours assumed)`."""
+    assumed = " (hours assumed)" if mission.assumed else ""
+    return f"mean over {mission.words}{assumed}"
+
+
+def mission_hours(mission: Mission) -> str:
+    """The legs with their hours, and where these are set."""
+    legs = ", ".join(f"{leg.name} {leg.hours:g} h" for leg in mission.legs)
+    assumed = " (assumed)" if mission.assumed else ""
+    return f"Mission: {legs}{assumed}. Set the hours on the flight bar in Actuate."
 
 
 def limit_words(name: str) -> str:

@@ -10,10 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import ActuatorState, HandSettings, schedule_at
+from explorer.model.actuator_inputs import (
+    ActuatorState,
+    HandSettings,
+    hours_text,
+    hours_with,
+    schedule_at,
+)
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
-from explorer.text.readout import balance, change_kind, fuel_words, pair_words
+from explorer.text.readout import balance, change_kind, fuel_words, mission_words
 from explorer.views.actuated import (
     ActuatedBlade,
     actuated_blade,
@@ -29,10 +35,13 @@ from explorer.views.page_state import (
     Panel,
     PanelMemory,
     Questions,
+    SetAddress,
     SetHand,
 )
-from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
+from rotor.actuator import ActuatorFlight, Verdict
 from rotor.actuator.stopped import numbers_of
+from rotor.optimisation import FlightLeg
+from rotor.optimisation.mission import ASSUMED_HOURS
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
 from rotor.trim.doubt import sureness
 
@@ -119,6 +128,8 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
             (leg.name, _condition(leg, rotor.tip_speed, now.units))
             for leg in legs[::POINTS_PER_LEG]
         ),
+        hours=one.inputs.hours,
+        assumed=one.question.mission.assumed,
         at=round(position_of(legs, now.inputs.advance_ratio), 3),
         kind="ready" if known else "problem" if problem else "computing",
         words="; ".join(filter(None, (words, problem))),
@@ -207,7 +218,7 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     )
     return replace(
         state,
-        where=f"by schedule, {pair_words(verdict)}",
+        where=f"by schedule, {mission_words(verdict.baseline.mission)}",
         bars=_bars(
             verdict.savings,
             units,
@@ -305,6 +316,20 @@ def choose_state(now: PageState, state: ActuatorState) -> tuple[Effect, ...]:
     return (after_flight(hand),)
 
 
+MISSION = "h"
+"""Name of the hours in the address."""
+
+
+def set_hours(now: PageState, leg: int, hours: float) -> tuple[Effect, ...]:
+    """The hours of a leg were set: the mission of verdict, balance, schedule and search."""
+    before = now.hand.actuator.hours
+    if leg >= len(before):
+        return ()
+    after = hours_with(before, leg, hours)
+    kept = None if after == ASSUMED_HOURS else hours_text(after)
+    return SetHand(actuator={"hours": after}), SetAddress(MISSION, kept)
+
+
 def after_flight(hand: HandSettings) -> SetHand:
     """As set: no schedule and no stop any more, and the voltages are those that a hand set."""
     before = {"drives": hand.by_hand.drives, "crossed": hand.by_hand.crossed}
@@ -332,7 +357,12 @@ def _driven(now: PageState, x: float | None) -> dict[str, Any]:
     return {} if flight is None else schedule_at(flight, one.installed, POINTS_PER_LEG * x)
 
 
-_PRESSES = {"fly": fly_to, "state": choose_state, "balance": choose}
+_PRESSES = {
+    "fly": fly_to,
+    "state": choose_state,
+    "balance": choose,
+    "hours": lambda now, value: set_hours(now, *value),
+}
 FLIGHT = Panel(
     view, blade_out, asks=asks, remember=remember, reacts=follow_flight, presses=_PRESSES
 )

@@ -89,7 +89,10 @@
     card.querySelector('input').max = last();
     write(card.querySelector('.rxf-fly-bar > div'), flight.legs.map(([name, words], k) => `
       <button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}">
-        <b>${text(name)}</b><small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></button>`).join(''));
+        <b>${text(name)}</b><small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></button>
+      <label style="left:${100 * k / last()}%"><input type="number" min="0" max="99" step="0.05" inputmode="decimal"
+        data-hours="${k}" aria-label="Hours of ${text(name)} in the mission"> h</label>`).join(''));
+    showHours(flight);
     outdate(card, flight.kind !== 'ready');
     card.dataset.kind = flight.kind;
     write(card.querySelector('[data-words]'),
@@ -97,6 +100,21 @@
     card.querySelector('[data-explorer=tip-twist]').textContent = flight.tip;
     draw(flight.chart);
     mark();
+  });
+  // The hours of the mission: what a hand writes stays until it leaves the field.
+  function showHours({hours, assumed}) {
+    card.querySelectorAll('[data-hours]').forEach((field, k) => {
+      if (document.activeElement !== field) field.value = hours[k];
+      field.title = assumed ? 'Hours of this leg in the mission: assumed' : 'Hours of this leg in the mission';
+      field.toggleAttribute('data-assumed', assumed);
+    });
+  }
+  card.addEventListener('change', ({target}) => {
+    if (!target.dataset.hours) return;
+    if (target.value !== '') RX.send('hours', [Number(target.dataset.hours), clamp(Number(target.value), 0, 99)]);
+  });
+  card.addEventListener('focusout', ({target}) => {
+    if (target.dataset.hours) setTimeout(() => { if (RX.state.flight) showHours(RX.state.flight); }, 600);
   });
   // Names of the lines and areas. All words are written before the drawing, which has the height that they leave.
   function keys({state, words, chart, kind}) {

@@ -34,8 +34,9 @@ from explorer.views.flight import (
     position_of,
 )
 from explorer.views.page_state import PageState
-from rotor.actuator.flight import ActuatorFlight, standard_flight
+from rotor.actuator.flight import ActuatorFlight
 from rotor.actuator.verdict import Verdict
+from rotor.optimisation import standard_flight
 from rotor.support.chart import DrawnBand, DrawnLine
 from rotor.trim.doubt import ESTIMATED, sureness
 from tests.actuate import actuate, asked, done, told
