@@ -14,7 +14,8 @@ from explorer.model.inputs import OPENING
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ACTUATOR_CARD
 from rotor.__main__ import main as rotor_main
-from rotor.validation.thesis.actuation import table_5_2
+from rotor.optimisation import mission_at
+from rotor.validation.thesis.actuation import SPEEDS, table_5_2
 from tests.actuate import actuate, asked, told
 from tests.tools import answers, readme
 

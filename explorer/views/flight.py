@@ -19,7 +19,7 @@ from explorer.model.actuator_inputs import (
 )
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
-from explorer.text.readout import balance, change_kind, fuel_words, mission_words
+from explorer.text.readout import balance, change_kind, fuel_words
 from explorer.views.actuated import (
     ActuatedBlade,
     actuated_blade,
@@ -212,13 +212,14 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     state = EarnsPart(kind, units.power[0].symbol)
     if verdict is None:
         return state
+    assumed = " (hours assumed)" if verdict.baseline.mission.assumed else ""
     saved, band = verdict.fuel_saving, verdict.fuel_band
     fuel = (
         change_kind(-saved, sureness(saved, band)) if saved is not None and band is not None else ""
     )
     return replace(
         state,
-        where=f"by schedule, {mission_words(verdict.baseline.mission)}",
+        where=f"by schedule, mean of legs{assumed}",
         bars=_bars(
             verdict.savings,
             units,

@@ -167,6 +167,24 @@ def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keep
     assert seen("as set") == fast
 
 
+def test_hours_of_a_leg_are_set_on_the_flight_bar(watched: Watched):
+    """Verdict, link, and the mission of Optimise follow; with less than two legs the hours stay as they were."""
+    page = watched.page
+    fields = page.locator("[data-hours]")
+    expect(fields).to_have_count(4)
+    expect(page.locator(".rxf-earns")).to_contain_text("hours assumed", timeout=VERDICT)
+    fields.nth(3).fill("1.5")
+    fields.nth(3).press("Tab")
+    page.wait_for_function("() => RX.state.flight?.hours[3] === 1.5", timeout=VERDICT)
+    page.wait_for_function("() => /[&?]h=0.5,0.25,1,1.5/.test(location.search)", timeout=VERDICT)
+    expect(page.locator(".rxf-earns")).not_to_contain_text("assumed", timeout=VERDICT)
+    for k in range(4):
+        fields.nth(k).fill("0")
+        fields.nth(k).press("Tab")
+    page.wait_for_function("() => RX.state.flight?.hours.filter(Boolean).length === 2")
+    watched.until(lambda: fields.nth(3).input_value() == "1.5")
+
+
 @pytest.mark.slow
 def test_a_supposed_actuator_is_dragged_to_where_it_pays(watched: Watched):
     """Red where the chosen one stands, green below the line; link and shared picture keep it."""

@@ -119,7 +119,7 @@ def actuator_sentences(found: Mapping[str, Any]) -> list[str]:
     (word,) = {cost_word(row) for row in (first, best, fixed)}
     return [
         f"None of {len(rows)} combinations of actuator and twist law; {limits}.",
-        f"Over a mission of hover, climb, cruise and fast flight, whose hours are assumed, {short_name(first)}, with "
+        f"Over a mission of hover, climb, cruise and fast flight (hours assumed), {short_name(first)}, with "
         f"which the page begins, costs this blade "
         f"{cost_text(first)}, and the best, {short_name(best)}, {cost_text(best)}.",
         f"Against the best fixed twist the best costs {cost_text(fixed)}, "
