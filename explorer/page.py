@@ -96,6 +96,10 @@ _NOT_STORED = (
     "This browser stores nothing for the page: a reload keeps the design in the address, and loses history, bookmarks "
     "and your own rotors.",
 )
+_NO_NEAREST = (
+    "No nearest design is known",
+    "Change what the sentence on top names, or undo the last step.",
+)
 _NO_LINK = (
     "Link not read",
     "The browser did not give the page its address: reload the page to open a link.",
@@ -442,7 +446,7 @@ class Page:
         )
 
     def _nearest_trim(self) -> None:
-        """From inputs without a trim to the nearest towards the last that had one; one step of undo takes it back."""
+        """From inputs without a trim to the nearest that their sentence names; one step of undo takes it back."""
         state = self.context.state()
         if state is not None:
             wanted, carried = (
@@ -457,9 +461,11 @@ class Page:
                 except ValueError:
                     return False
 
-            self.context.set_inputs(
-                nearest_trim(state.inputs, wanted, trims, self.latest.problem, kilograms)
-            )
+            nearest = nearest_trim(wanted, trims, self.latest.problem, kilograms)
+            if nearest is None:
+                self.context.notify(*_NO_NEAREST)
+            else:
+                self.context.set_inputs(nearest)
 
     def show_error(self, sentence: str) -> None:
         """An update failed with an exception."""

@@ -38,10 +38,6 @@ _WIDEST = math.radians(31.0)
 """Widest angle that is drawn [rad]."""
 _RAY, _COLUMN = 134.0, 266.0
 """Where the rays of small angles end, and where their words begin."""
-_UNSTEADY_ALPHA = (
-    "α = θ − φ + pitch rate: the flow at three quarters of the chord, which the turning of the section changes. "
-    "Theory, section 5."
-)
 _FAINT, _BOLD = 0.6, 600
 """Opacity of what is less important, and weight of what is more."""
 
@@ -355,7 +351,7 @@ def _sum(probe: Probe) -> Markup:
 
 def _alpha_tip(probe: Probe) -> str:
     """The formula of α that is used here."""
-    return tip("probe_alpha") if probe.pitch_rate is None else _UNSTEADY_ALPHA
+    return tip("probe_alpha" if probe.pitch_rate is None else "probe_alpha_unsteady")
 
 
 def _key(scales: DrawingScales) -> Markup:

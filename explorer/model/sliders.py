@@ -15,12 +15,11 @@ import re
 from collections.abc import Callable, Generator, Mapping
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from explorer.model.inputs import FLIGHT, LAWS, ROWS, Inputs, mass_range
-from explorer.model.undo import differing
 from explorer.model.units import AVIATION, POUND, SI, Units, form_of, number, slider_input
 from rotor import Aircraft, Solution, solve
 from rotor.design.quantities import STAND
@@ -29,8 +28,6 @@ from rotor.files.rotor_file import shipped_aircraft
 from rotor.support.assets import SHIPPED_ROTORS
 from rotor.trim import PitchGradient
 
-_HALVINGS = 6
-"""Trims that look for the last design that trims: to a sixty-fourth of the way."""
 _FRACTION = 0.1
 """Part of a step by which flight conditions are moved for the differences."""
 
@@ -182,60 +179,78 @@ def _moved(solution: Solution, name: str, step: float) -> float | None:
     return answer.power.total if answer.converged and np.isfinite(answer.power.total) else None
 
 
-_NAMED = {
-    "mass_t": r"(?:is|are) (\d+) kg at this speed",
-    "advance_ratio": r"advance ratio (\d\.\d+) at this mass",
-}
-"""What sentences about a trim that is not found name, by input."""
+_MASS_NAMED = re.compile(r"(?:is|are) (\d+) kg (?:at this speed|in hover)")
+_MU_NAMED = re.compile(r"advance ratio (\d\.\d+) at this mass")
+_LOADING_NAMED = re.compile(r"C_?T/σ (\d\.\d+) (?:at this advance ratio|in hover)")
+"""What sentences about a trim that is not found name."""
 
 
 def nearest_trim(
-    good: Inputs,
-    wanted: Inputs,
-    trims: Callable[[Inputs], bool],
-    sentence: str = "",
-    carried: float = 0.0,
-) -> Inputs:
-    """The nearest design that trims, on the sliders' steps: with the mass or advance ratio that the sentence names,
-    first that which was moved; else the last from one that does trim towards one that does not.
+    wanted: Inputs, trims: Callable[[Inputs], bool], sentence: str, carried: float = 0.0
+) -> Inputs | None:
+    """The nearest inputs that trim, on the sliders' steps, None where none are known.
 
-    Sliders that differ move together; where anything else differs it is `good` itself. `carried`: mass of an actuator
-    [kg], which the sentence counts and the slider does not.
+    They have the mass, the advance ratio or the loading that the sentence names, of several the one that is least below
+    what was asked for.
+
+    `carried`: mass of an actuator [kg], which the sentence counts and the slider does not.
     """
-    moved = differing(good, wanted)
-    for name in sorted(_NAMED, key=lambda name: name not in moved):
-        found = re.search(_NAMED[name], sentence)
-        if found is None:
-            continue
-        step = slider(name, SI, wanted.aircraft).step
-        value = float(found[1]) - (carried if name == "mass_t" else 0.0)
-        steps = math.floor(value / ROWS[name].input_size / step + 1e-6)
-        there = replace(wanted, **{name: round(steps * step, 6)})
-        if trims(there):
-            return there
-    if not moved or not all(
-        isinstance(getattr(good, name), float) and name in SLIDERS for name in moved
-    ):
-        return good
+    named = [
+        _with_mass_named(wanted, sentence, carried),
+        _with_speed_named(wanted, sentence),
+        _with_loading_named(wanted, sentence),
+    ]
+    moves = [move for move in named if move is not None]
+    for move in sorted(moves, key=lambda move: move.share):
+        if trims(move.inputs):
+            return move.inputs
+    return None
 
-    def between(share: float) -> Inputs:
-        values: dict[str, Any] = {}
-        for name in moved:
-            start, end = getattr(good, name), getattr(wanted, name)
-            step = slider(name, SI, good.aircraft).step
-            # Towards the good end, so that the step does not lead beyond what trims.
-            values[name] = round(start + math.trunc(share * (end - start) / step) * step, 6)
-        return replace(good, **values)
 
-    reached, low, high = good, 0.0, 1.0
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        there = between(middle)
-        if trims(there):
-            reached, low = there, middle
-        else:
-            high = middle
-    return reached
+class _Move(NamedTuple):
+    """Inputs with another value of one slider."""
+
+    inputs: Inputs
+    share: float
+    """By which part of the value that was asked for it is less."""
+
+
+def _with_mass_named(wanted: Inputs, sentence: str, carried: float) -> _Move | None:
+    found = _MASS_NAMED.search(sentence)
+    if found is None or wanted.stand is not None:
+        return None
+    mass = (float(found[1]) - carried) / ROWS["mass_t"].input_size
+    return _moved_down(wanted, "mass_t", mass)
+
+
+def _with_speed_named(wanted: Inputs, sentence: str) -> _Move | None:
+    found = _MU_NAMED.search(sentence)
+    return None if found is None else _moved_down(wanted, "advance_ratio", float(found[1]))
+
+
+def _moved_down(wanted: Inputs, name: str, value: float) -> _Move:
+    """With the last step of a slider up to a value."""
+    there = _last_step(value, slider(name, SI, wanted.aircraft).step)
+    return _Move(replace(wanted, **{name: there}), 1.0 - there / getattr(wanted, name))
+
+
+def _with_loading_named(wanted: Inputs, sentence: str) -> _Move | None:
+    """A test with the thrust of the loading that is named."""
+    found = _LOADING_NAMED.search(sentence)
+    stand = wanted.stand
+    if found is None or stand is None or stand.load not in ("ct_over_sigma", "thrust_n"):
+        return None
+    value = float(found[1])
+    if stand.load == "thrust_n":
+        design = wanted.design()
+        value *= design.rotor.solidity * design.thrust_unit
+    there = _last_step(value, stand_slider(stand.load, wanted).step)
+    return _Move(replace(wanted, stand=replace(stand, value=there)), 1.0 - there / stand.value)
+
+
+def _last_step(value: float, step: float) -> float:
+    """The last place of a slider up to a value."""
+    return round(math.floor(value / step + 1e-6) * step, 6)
 
 
 DETENT = 0.35

@@ -18,7 +18,7 @@ from rotor.actuator import InstalledActuator, Verdict
 from rotor.optimisation import Mission
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.markup import Content, Markup, tag
-from rotor.trim.doubt import MOST_OF_SMALL, Doubt, rounded_pair, sure_words, sureness
+from rotor.trim.doubt import ESTIMATED, MOST_OF_SMALL, Doubt, rounded_pair, sure_words, sureness
 from rotor.trim.solution import ElasticTwist
 
 PART_TITLES = {
@@ -76,7 +76,7 @@ def _panel(
             "div.rx-line.rx-base",
             tag("span.rx-total", total, data_explorer="total-power", title=tip("total_power")),
             tag("span.rx-dim", units.other_watts(power.total)),
-            tag("span.rx-push", change(power, reference, band), title=tip("change")),
+            tag("span.rx-push", change(power, reference, band)),
         ),
         tag("div.rx-line.rx-dim", words, title=tip("change")),
         table,
@@ -121,8 +121,13 @@ def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None
     percent = 100.0 * (power.total / reference.total - 1.0)
     words = "" if band is None else band.saving_words
     words = words or f"{number(percent, 1, sign=True)} %"
+    # There is room for the word alone; why it is not "sure" stands on the line, and here in the tooltip.
+    words, capped, _ = words.partition(f", {ESTIMATED}")
+    title = f"{tip('change')} Likely, {ESTIMATED}." if capped else tip("change")
     kind = change_kind(percent, band and band.sureness)
-    return tag("span.rx-change", words, class_=kind and f"rx-{kind}", data_explorer="change")
+    return tag(
+        "span.rx-change", words, class_=kind and f"rx-{kind}", title=title, data_explorer="change"
+    )
 
 
 def change_kind(change: float, word: str | None) -> Literal["", "less", "more"]:

@@ -360,8 +360,6 @@
     return {value: Number.isFinite(margin) ? `${fixed(margin, 1)}° to static stall` : '', kind: ''};
   }
 
-  RX.paint('line', line => place.toggleAttribute('data-faded', Boolean(line.problem)));
-
   const redraw = soon(() => { if (RX.state.plan) { drawCursor(); drawAround(); } });
   const onStep = r => clamp(Math.round(100 * r), Math.ceil(100 * RX.shown('plan').root - 1e-7), 100) / 100;
   function find(event) {

@@ -136,8 +136,8 @@ class Regions:
     [rad], or in unsteady flow of the separation point [chords]."""
 
 
-@dataclass(frozen=True)
-class _Elements:
+@dataclass(frozen=True, eq=False)
+class _ElementFlow:
     """What decides the region of an element: of the trim, or on finer radii, (elements, azimuths) each."""
 
     r: Array
@@ -164,9 +164,9 @@ def regions(disk: Disk, elements: BladeElements, stall_margin: Array) -> Regions
     return _counted(e(disk, elements, stall_margin))
 
 
-def _as_solved(disk: Disk, elements: BladeElements, stall_margin: Array) -> _Elements:
+def _as_solved(disk: Disk, elements: BladeElements, stall_margin: Array) -> _ElementFlow:
     unsteady = elements.unsteady
-    return _Elements(
+    return _ElementFlow(
         r=disk.r,
         cells=disk.cells,
         u_t=elements.u_t,
@@ -177,7 +177,7 @@ def _as_solved(disk: Disk, elements: BladeElements, stall_margin: Array) -> _Ele
     )
 
 
-def _on_finer_radii(disk: Disk, elements: BladeElements, stall_margin: Array) -> _Elements:
+def _on_finer_radii(disk: Disk, elements: BladeElements, stall_margin: Array) -> _ElementFlow:
     """Elements at even radii: what is smooth is linear along the blade, and the angle of attack follows from it."""
     del stall_margin  # It jumps beside reverse flow.
     matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
@@ -189,7 +189,7 @@ def _on_finer_radii(disk: Disk, elements: BladeElements, stall_margin: Array) ->
     angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
     margin = np.minimum(high - alpha, alpha - low)
     unsteady = elements.unsteady
-    return _Elements(
+    return _ElementFlow(
         r=matrix @ disk.r,
         cells=cells / elements.u_t.shape[1],
         u_t=u_t,
@@ -200,7 +200,7 @@ def _on_finer_radii(disk: Disk, elements: BladeElements, stall_margin: Array) ->
     )
 
 
-def _counted(e: _Elements) -> Regions:
+def _counted(e: _ElementFlow) -> Regions:
     reverse = e.u_t < 0.0
     separated = (e.attached < 0.0) & ~reverse
     flows = ~separated & ~reverse

@@ -108,7 +108,7 @@ class Limits:
             )
         if self.stalled is not None and not 0.0 <= self.stalled <= 1.0:
             raise ValueError(
-                f"stalled_percent {100 * self.stalled:g} is outside 0…100 %: choose a value inside"
+                f"stalled_percent {100 * self.stalled:g} % is outside 0…100 %: choose a value inside"
             )
         if self.index is not None and not 0.0 < self.index < math.inf:
             raise ValueError(

@@ -110,7 +110,7 @@ def _refused(result: TrimResult) -> str:
         return ""
     design = result.problem.design
     stalled = stalled_parts(result.problem, result.linear.elements)[0]
-    return vortex_ring(design) or failure_sentence(design, result.reached, stalled)
+    return vortex_ring(design) or failure_sentence(design, stalled)
 
 
 def _impossible(design: Design, power: PowerBudget) -> str:

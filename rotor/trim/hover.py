@@ -95,7 +95,7 @@ def _twisted(problem: Problem, system: System, x: Array, options: SolverOptions)
         x = point.x.copy()
         x[system.structure.free] -= np.linalg.solve(jacobian(point)[0], point.residual)
         point = evaluate(system, system.grid, x, slopes=True, flow=True)
-    return TrimResult(problem, point, 0.0, error <= options.accepted_hover, passes, 1.0)
+    return TrimResult(problem, point, 0.0, error <= options.accepted_hover, passes)
 
 
 def _error(point: Point, problem: Problem, first: int = 0) -> float:
@@ -141,6 +141,4 @@ def _for_thrust(problem: Problem, system: System, x: Array, options: SolverOptio
     point = evaluate(system, system.grid, best[1], slopes=True, flow=True)
     residual = abs(float(point.residual[0])) / problem.scale
     converged = max(residual, _error(point, problem, 1)) <= options.accepted_hover
-    return TrimResult(
-        problem, point, residual, converged, passes, 1.0 + float(point.residual[0]) / problem.scale
-    )
+    return TrimResult(problem, point, residual, converged, passes)

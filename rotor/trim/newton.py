@@ -161,8 +161,6 @@ class TrimResult:
     converged: bool
     passes: int
     """Evaluations of the blade elements."""
-    reached: float = 1.0
-    """C_T over C_W in hover."""
     factors: Factors | None = None
     """Factors of the last derivatives, where they reduced the residual so much that they are near those of the trim."""
     steady: bool = True

@@ -5,18 +5,26 @@ that do not know the value asked for.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import lru_cache
 
 from rotor.aero.problem import Problem
 from rotor.columns.blade import Freedom
-from rotor.design.aircraft import Stand
 from rotor.design.design import Design
 from rotor.design.quantities import CONDITION, STAND
 from rotor.trim.analysis import Analysis
 from rotor.trim.assemble import assemble
-from rotor.trim.forward import EASY_LOADING, FOLLOWING_PASSES, trim_on_course
+from rotor.trim.forward import EASY_LOADING, FOLLOWING_PASSES, along, trim_on_course
+from rotor.trim.hover import hover
 from rotor.trim.low_speed import trim_problem, vortex_ring
-from rotor.trim.newton import FEW_DIGITS, Guess, SolverOptions, TrimResult, newton
+from rotor.trim.newton import (
+    DEFAULT_OPTIONS,
+    FEW_DIGITS,
+    Guess,
+    SolverOptions,
+    TrimResult,
+    newton,
+)
 from rotor.trim.solution import Solution
 from rotor.trim.validity import MOST_STALLED, Largest
 
@@ -46,82 +54,125 @@ def too_stalled(found: Analysis) -> bool:
 
 
 def largest(solution: Solution, options: SolverOptions) -> Largest:
-    """The largest mass and speed that trim with all else as in a refused design, or the largest C_T/σ on a stand."""
+    """The largest mass and speed that trim with all else as in a refused design, or the largest C_T/σ on a stand.
+
+    None of them is named where it is no less than in the design: it would be no remedy.
+    """
     design = solution.design
-    if design.hovering or vortex_ring(design):
+    if vortex_ring(design):
         return Largest()
-    few = replace(FEW_DIGITS, max_passes=FOLLOWING_PASSES, stop=options.stop)
-    stand = design.condition.stand
-    if stand is None:
-        return Largest(
-            mass_kg=_largest_mass(design, solution.freedoms, few),
-            mu=_largest_speed(design, solution.freedoms, few),
-        )
-    if stand.collective is None and design.models.trim == "wind-tunnel":
-        return Largest(ct_over_sigma=_largest_loading(design, stand, solution.freedoms, few))
-    return Largest()
+    try:
+        found = _largest_on_stand if design.condition.stand is not None else _largest_in_flight
+        return found(design, solution.freedoms, options)
+    except _Stopped:
+        return Largest()
 
 
-def _largest_mass(
+def _largest_in_flight(
     design: Design, freedoms: tuple[Freedom, ...], options: SolverOptions
-) -> float | None:
-    """The largest mass [kg] at the speed of a design; None where none is known."""
-    follower = _mass_follower(design, freedoms, options)
-    easy, step = _mass_steps(design)
-    return _last_that_counts(follower, easy, step, design.condition.mass)
-
-
-def _largest_speed(
-    design: Design, freedoms: tuple[Freedom, ...], options: SolverOptions
-) -> float | None:
-    """The largest advance ratio at the mass of a design; None where it does not trim at that of least power."""
-    mu = CONDITION["mu"]
+) -> Largest:
+    easy, _ = _mass_steps(design)
+    mass = _largest_mass(_Question(CONDITION["mass_kg"].put(design, easy), freedoms, options))
+    if mass is not None and mass >= design.condition.mass:
+        mass = None
+    if design.hovering:
+        return Largest(mass_kg=mass, hovering=True)
     asked = design.condition.advance_ratio
     if asked <= _LEAST_POWER_SPEED:
-        return None
-    start = _guess_at_least_power(mu.put(design, _LEAST_POWER_SPEED), freedoms, options)
+        return Largest(mass_kg=mass)
+    slow = CONDITION["mu"].put(design, _LEAST_POWER_SPEED)
+    mu = _largest_speed(_Question(slow, freedoms, options))
+    if mu is not None and mu >= asked:
+        mu = None
+    return Largest(mass_kg=mass, mu=mu)
+
+
+def _largest_on_stand(
+    design: Design, freedoms: tuple[Freedom, ...], options: SolverOptions
+) -> Largest:
+    stand = design.condition.stand
+    if stand is None or stand.collective is not None:
+        return Largest()
+    loading = _largest_loading(_Question(_loaded(design, EASY_LOADING), freedoms, options))
+    if loading is not None and loading >= design.weight_coefficient / design.rotor.solidity:
+        loading = None
+    return Largest(ct_over_sigma=loading, hovering=design.hovering)
+
+
+class _Stopped(Exception):
+    """The caller wants the solve to end: nothing is known, and nothing is kept."""
+
+
+@dataclass(frozen=True)
+class _Question:
+    """A design whose largest value of one quantity is looked for; of that quantity it has an easy value."""
+
+    design: Design
+    freedoms: tuple[Freedom, ...]
+    options: SolverOptions = field(compare=False)
+    """Of the refused solve: what stops it. Tolerances are fixed, so that the answer is that of the design."""
+
+    @property
+    def tolerances(self) -> SolverOptions:
+        """Those by which hover is refused, and in forward flight few digits."""
+        if self.design.hovering:
+            return replace(DEFAULT_OPTIONS, stop=self.options.stop)
+        return replace(FEW_DIGITS, max_passes=FOLLOWING_PASSES, stop=self.options.stop)
+
+
+@lru_cache(maxsize=256)
+def _largest_mass(question: _Question) -> float | None:
+    """The largest mass [kg] at the speed of a design; None where none is known."""
+    easy, step = _mass_steps(question.design)
+    return _last_that_counts(_mass_follower(question), easy, step)
+
+
+@lru_cache(maxsize=256)
+def _largest_speed(question: _Question) -> float | None:
+    """The largest advance ratio at the mass of a design; None where it does not trim at that of least power."""
+    mu = CONDITION["mu"]
+    start = _guess_at_least_power(question)
     if start is None:
         return None
-    follower = _Follower(lambda value: mu.put(design, value), mu.high, freedoms, options, start)
-    return _last_that_counts(follower, _LEAST_POWER_SPEED, _SPEED_STEP, asked)
+    follower = _Follower(question, lambda value: mu.put(question.design, value), mu.high, start)
+    return _last_that_counts(follower, _LEAST_POWER_SPEED, _SPEED_STEP)
 
 
-def _guess_at_least_power(
-    design: Design, freedoms: tuple[Freedom, ...], options: SolverOptions
-) -> Guess | None:
+@lru_cache(maxsize=256)
+def _largest_loading(question: _Question) -> float | None:
+    """The largest C_T/σ at the speed and tilt of a test; None where none is known."""
+    follower = _Follower(
+        question, lambda value: _loaded(question.design, value), STAND["ct_over_sigma"].high
+    )
+    return _last_that_counts(follower, EASY_LOADING, _LOADING_STEP)
+
+
+def _loaded(design: Design, loading: float) -> Design:
+    """A test with another C_T/σ."""
+    stand = design.condition.stand
+    assert stand is not None
+    test = replace(stand, thrust=None, ct_over_sigma=loading)
+    return replace(design, condition=replace(design.condition, stand=test))
+
+
+def _guess_at_least_power(question: _Question) -> Guess | None:
     """The trim of a design to which that of a light rotor leads; None where it ends before.
 
     It is on the branch of attached flow, and a mass too large for the rotor is known in fewer steps than from a cold
     start.
     """
-    follower = _mass_follower(design, freedoms, options)
-    mass, step = _mass_steps(design)
-    while mass < design.condition.mass:
+    follower = _mass_follower(question)
+    mass, step = _mass_steps(question.design)
+    while mass < question.design.condition.mass:
         if follower.trim(mass) is None:
             return None
         mass += step
-    return follower.guess_at(design.condition.mass)
+    return follower.guess_at(question.design.condition.mass)
 
 
-def _largest_loading(
-    design: Design, stand: Stand, freedoms: tuple[Freedom, ...], options: SolverOptions
-) -> float | None:
-    """The largest C_T/σ at the speed and tilt of a test; None where none is known."""
-
-    def loaded(value: float) -> Design:
-        test = replace(stand, thrust=None, ct_over_sigma=value)
-        return replace(design, condition=replace(design.condition, stand=test))
-
-    follower = _Follower(loaded, STAND["ct_over_sigma"].high, freedoms, options)
-    asked = design.weight_coefficient / design.rotor.solidity
-    return _last_that_counts(follower, EASY_LOADING, _LOADING_STEP, asked)
-
-
-def _mass_follower(
-    design: Design, freedoms: tuple[Freedom, ...], options: SolverOptions
-) -> "_Follower":
+def _mass_follower(question: _Question) -> "_Follower":
     mass = CONDITION["mass_kg"]
-    return _Follower(lambda value: mass.put(design, value), mass.high, freedoms, options)
+    return _Follower(question, lambda value: mass.put(question.design, value), mass.high)
 
 
 def _mass_steps(design: Design) -> tuple[int, int]:
@@ -132,31 +183,36 @@ def _mass_steps(design: Design) -> tuple[int, int]:
     return easy, round(easy * _LOADING_STEP / EASY_LOADING)
 
 
-@dataclass(eq=False)
 class _Follower:
     """Trims of a design while one quantity grows, each begun on the secant through the two before."""
 
-    design_at: Callable[[float], Design]
-    high: float
-    """The largest value of the quantity that exists."""
-    freedoms: tuple[Freedom, ...]
-    options: SolverOptions
-    start: Guess | None = None
-    """Of the first trim."""
-
-    def __post_init__(self) -> None:
+    def __init__(
+        self,
+        question: _Question,
+        design_at: Callable[[float], Design],
+        high: float,
+        start: Guess | None = None,
+    ) -> None:
+        """`high`: the largest value of the quantity that exists; `start`: of the first trim."""
+        self.high = high
+        self._question = question
+        self._design_at = design_at
+        self._options = question.tolerances
+        self._start = start
         self._trims: list[tuple[float, TrimResult]] = []
 
     def trim(self, value: float) -> Solution | None:
-        """The solution at a value of the quantity; None where trims end, too much is stalled, or the caller stops."""
-        if value > self.high or self.options.asked_to_stop:
+        """The solution at a value of the quantity; None where trims end or too much is stalled."""
+        if self._options.asked_to_stop:
+            raise _Stopped
+        if value > self.high:
             return None
-        problem = trim_problem(self.design_at(value), self.freedoms)
+        problem = trim_problem(self._design_at(value), self._question.freedoms)
         result = self._result(problem, value)
         if not result.converged:
             return None
         found = assemble(result, 0.0)
-        if too_stalled(found):
+        if not problem.design.hovering and too_stalled(found):
             return None
         self._trims.append((value, result))
         return found.solution
@@ -174,37 +230,42 @@ class _Follower:
         return result.guess
 
     def _result(self, problem: Problem, value: float) -> TrimResult:
+        if problem.design.hovering:
+            return hover(problem, None, self._options)
         if not self._trims:
-            return trim_on_course(problem, self.start, self.options, MOST_STALLED)
+            return trim_on_course(problem, self._start, self._options, MOST_STALLED)
         last, result = self._trims[-1]
         guess = result.guess
         if len(self._trims) > 1:
             before, earlier = self._trims[-2]
             guess = guess.ahead(earlier.guess, (value - last) / (last - before))
-        return newton(problem, replace(guess, box=None), self.options)
+        found = newton(problem, replace(guess, box=None), self._options)
+        lies_along_linear_trim = problem.design.models.trim != "free-rotor"
+        if lies_along_linear_trim or problem.inflow.wake_along is None or not found.converged:
+            return found
+        # Its wake lies along the trim found, as in `trim_on_course`.
+        laid = replace(problem, course=along(found, problem.course))
+        return newton(laid, replace(found.guess, box=None), self._options)
 
 
-def _last_that_counts(follower: _Follower, easy: float, step: float, asked: float) -> float | None:
-    """The largest value up to which trims are not refused; None where there is none below the one asked for."""
-    reached = _first_that_counts(follower, easy, step, asked)
+def _last_that_counts(follower: _Follower, easy: float, step: float) -> float | None:
+    """The largest value up to which trims are not refused; None where there is none."""
+    reached = _first_that_counts(follower, easy, step)
     if reached is None:
         return None
-    while reached < asked and follower.counts(reached + step):
+    while follower.counts(reached + step):
         reached += step
     for _ in range(_HALVINGS):
         step *= 0.5
         if follower.counts(reached + step):
             reached += step
-    # The design was refused at the value asked for, so that no value beyond it is a remedy.
-    if reached >= asked or follower.options.asked_to_stop:
-        return None
     return reached
 
 
-def _first_that_counts(follower: _Follower, easy: float, step: float, asked: float) -> float | None:
+def _first_that_counts(follower: _Follower, easy: float, step: float) -> float | None:
     """The first value, on whole steps from an easy one, at which a trim is not refused; None as above."""
     value = easy
-    while value < asked:
+    while value <= follower.high:
         solution = follower.trim(value)
         if solution is None:
             return None

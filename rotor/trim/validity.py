@@ -440,8 +440,8 @@ def _share(stalled: float) -> str:
     return f" The flow is separated over {100.0 * stalled:.0f} % of the disk in the last attempt."
 
 
-def failure_sentence(design: Design, reached: float, stalled: float) -> str:
-    """Why a design did not trim, and the remedy. reached: in hover the largest C_T over that needed."""
+def failure_sentence(design: Design, stalled: float) -> str:
+    """Why a design did not trim, and the remedy."""
     condition = design.condition
     if condition.stand is not None:
         return _stand_failure(design, condition.stand, stalled)
@@ -451,10 +451,7 @@ def failure_sentence(design: Design, reached: float, stalled: float) -> str:
         (f"{condition.mass:.0f} kg at {condition.altitude:.0f} m", *in_words(design.unusual))
     )
     if design.hovering:
-        return (
-            f"Not trimmed: the hovering rotor produces at most {100.0 * reached:.0f} % of the thrust that {what} "
-            f"needs; {advice}."
-        )
+        return f"Not trimmed: {what} is beyond this rotor in hover: {advice}."
     if _tilt(design) > LARGEST_TILT:
         return (
             f"Not trimmed: drag tilts the shaft by {math.degrees(_tilt(design)):.0f}° at {what} and advance ratio "
@@ -484,18 +481,21 @@ class Largest:
     mass_kg: float | None = None
     mu: float | None = None
     ct_over_sigma: float | None = None
+    hovering: bool = False
 
 
 def largest_sentence(largest: Largest) -> str:
     """`The largest that trims is 13152 kg at this speed.`, never rounded up; empty where nothing is known."""
     named = list[str]()
     if largest.mass_kg is not None:
-        named.append(f"{math.floor(largest.mass_kg)} kg at this speed")
+        place = "in hover" if largest.hovering else "at this speed"
+        named.append(f"{math.floor(largest.mass_kg)} kg {place}")
     if largest.mu is not None:
         named.append(f"advance ratio {math.floor(1e3 * largest.mu) / 1e3:.3f} at this mass")
     if largest.ct_over_sigma is not None:
         loading = math.floor(1e4 * largest.ct_over_sigma) / 1e4
-        named.append(f"C_T/σ {loading:.4f} at this advance ratio")
+        place = "in hover" if largest.hovering else "at this advance ratio"
+        named.append(f"C_T/σ {loading:.4f} {place}")
     if not named:
         return ""
     verb = "trim are" if len(named) > 1 else "trims is"

@@ -41,6 +41,7 @@ from explorer.workers.call import Call
 from rotor.actuator import verdict_details, with_actuator
 from rotor.actuator.catalogue import actuators, find_actuator
 from rotor.actuator.verdict import Verdict
+from rotor.command.actuator import report
 from rotor.design.active_twist import linear_active_twist, read_harmonics
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
@@ -221,6 +222,8 @@ def test_the_parts_of_a_verdict_have_the_unit_of_the_view(verdict: Verdict):
         text = actuator_words.fit_panel(verdict.installed, verdict, units)
         text += verdict_details(verdict, (unit.symbol, unit.size))
         assert set(re.findall(r"(?<=\d )(?:kW|W|hp)\b", text)) == {unit.symbol}
+    # The command prints kilowatts alone, also for the drive.
+    assert set(re.findall(r"(?<=\d )(?:kW|W|hp)\b", report(verdict))) == {"kW"}
 
 
 def asked(name: str) -> Call:

@@ -296,3 +296,26 @@ def test_a_voltage_is_a_step_of_its_own(app: App):
         await visitor.until(lambda: page.context.inputs().advance_ratio == OPENING.advance_ratio)
 
     visited(app, volts)
+
+
+def test_the_nearest_that_trims_is_what_the_sentence_names_or_is_said_to_be_unknown(app: App):
+    """In the vortex ring state no mass and no speed is named; in hover at 4000 m the largest mass is."""
+
+    async def act(visitor: Visitor, page: Page) -> None:
+        await visitor.press("slide", ["advance_ratio", 0.0])
+        await visitor.press("slide", ["climb_m_s", -10.0])
+        await visitor.until(lambda: "vortex ring" in visitor.frame["line"]["problem"])
+        await visitor.press("nearest")
+        await visitor.until(lambda: bool(visitor.notices))
+        assert visitor.notices[-1].startswith("No nearest design is known: ")
+        assert page.context.controls.inputs().climb_m_s == -10.0
+        await visitor.press("slide", ["climb_m_s", 0.0])
+        await visitor.press("slide", ["mass_t", 11.0])
+        await visitor.press("slide", ["isa_offset_c", 35.0])
+        await visitor.press("slide", ["altitude_m", 4000.0])
+        await visitor.until(lambda: " t in hover" in visitor.frame["line"]["problem"])
+        await visitor.press("nearest")
+        await visitor.until(lambda: not visitor.frame["line"]["problem"])
+        assert page.context.controls.inputs().mass_t < 11.0
+
+    visited(app, act)

@@ -39,6 +39,9 @@ DESIGNS = {
     "bending": Inputs(
         law="builtin", built_outer=-3.0, advance_ratio=0.3, bending=True, inflow="drees"
     ),
+    "page that travels": Inputs(
+        rotor="bo105", law="linear", linear=-10.0, mass_t=2.2, advance_ratio=0.2, inflow="drees"
+    ),
     "elastic in hover": Inputs(law="linear", linear=-10.0, advance_ratio=0.0),
     "climbing": Inputs(law="builtin", built_outer=-2.0, advance_ratio=0.1, climb_m_s=3.0),
 }

@@ -14,6 +14,7 @@ from explorer.model.sliders import (
     flight_sensitivities,
     nearest_trim,
     slider,
+    stand_slider,
     twist_sensitivities,
 )
 from explorer.model.units import AVIATION, SI, UNITS, number
@@ -161,20 +162,49 @@ def test_twist_of_a_small_rotor_has_an_effect(rotor: str):
     assert 0.0 < large.size < row.size
 
 
-def test_the_nearest_design_that_trims_lies_a_step_before_the_end():
-    """All sliders that were moved go together, towards those of the last trim."""
-    good, asked = Inputs(advance_ratio=0.3, mass_t=8.0), list[Inputs]()
+def converges(inputs: Inputs) -> bool:
+    return solve(inputs.design()).converged
 
-    def trims(inputs: Inputs) -> bool:
-        asked.append(inputs)
-        return inputs.advance_ratio <= 0.38
 
-    nearest = nearest_trim(good, replace(good, advance_ratio=0.5, mass_t=12.0), trims)
-    assert 0.38 - 2 * slider("advance_ratio", SI).step <= nearest.advance_ratio <= 0.38
-    assert nearest.mass_t == pytest.approx(8.0 + 4.0 * (nearest.advance_ratio - 0.3) / 0.2, abs=0.1)
-    assert len(asked) <= 6
-    other = replace(good, rotor="r22", mass_t=0.6)
-    assert nearest_trim(good, other, lambda _: True) == good
+@pytest.mark.parametrize(
+    "asked", [Inputs(mass_t=18.0, advance_ratio=0.0), Inputs(mass_t=25.0, advance_ratio=0.0)]
+)
+def test_in_hover_the_nearest_design_that_trims_is_that_of_the_rotor(asked: Inputs):
+    nearest = nearest_trim(asked, converges, solve(asked.design()).message)
+    assert nearest is not None
+    assert nearest == replace(asked, mass_t=17.2)
+
+
+@pytest.mark.parametrize("value", [0.13, 0.16])
+def test_a_free_rotor_is_led_to_the_loading_that_its_sentence_names(value: float):
+    free = with_rotor(Inputs(law="builtin"), "pca2")
+    assert free.stand is not None
+    asked = replace(free, advance_ratio=0.5, stand=replace(free.stand, value=value))
+    sentence = solve(asked.design()).message
+    nearest = nearest_trim(asked, converges, sentence)
+    assert nearest is not None
+    assert nearest.stand is not None
+    found = re.search(r"C_T/σ (\d\.\d+) at this advance ratio", sentence)
+    assert found
+    assert 0.0 <= float(found[1]) - nearest.stand.value < stand_slider("ct_over_sigma", asked).step
+
+
+def test_of_two_values_the_one_that_is_less_below_what_was_asked_for_is_nearest():
+    asked = Inputs(mass_t=16.0, advance_ratio=0.3)
+    words = "The largest that trim are {} kg at this speed and advance ratio {} at this mass."
+    for mass, mu, nearest in (
+        (13150, 0.175, replace(asked, mass_t=13.15)),
+        (8000, 0.281, replace(asked, advance_ratio=0.28)),
+    ):
+        assert nearest_trim(asked, lambda _: True, words.format(mass, mu)) == nearest
+    # The other one where that does not trim.
+    other = nearest_trim(asked, lambda inputs: inputs.mass_t < 16.0, words.format(8000, 0.281))
+    assert other == replace(asked, mass_t=8.0)
+
+
+def test_where_a_sentence_names_nothing_no_design_is_nearest():
+    asked = Inputs(mass_t=16.0, advance_ratio=0.3)
+    assert nearest_trim(asked, lambda _: True, "Not trimmed: lower the mass.") is None
 
 
 def test_the_nearest_design_that_trims_has_what_its_sentence_names():
@@ -184,7 +214,8 @@ def test_the_nearest_design_that_trims_has_what_its_sentence_names():
     sentence = solve(wanted.design()).message
     found = re.search(r"(\d+) kg at this speed", sentence)
     assert found
-    nearest = nearest_trim(good, wanted, lambda inputs: solve(inputs.design()).converged, sentence)
+    nearest = nearest_trim(wanted, converges, sentence)
+    assert nearest is not None
     assert (nearest.altitude_m, nearest.advance_ratio) == (3000.0, 0.3)
     assert 0.0 <= 1e-3 * float(found[1]) - nearest.mass_t < slider("mass_t", SI).step
     assert f"{math.floor(0.1 * float(found[1])) / 100.0:.2f} t at this speed" in SI.in_sliders(

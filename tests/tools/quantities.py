@@ -40,6 +40,7 @@ _PROBE_PANEL = "explorer.charts.probe_drawing.probe_panel"
 _CARD = "explorer.views.assessed.card"
 _CAUSES = "explorer.export.tables.doubts"
 _FLIGHT_BAR = "explorer.views.flight.view"
+_LIVE = "explorer.export.live.live_html"
 _RAIL = "explorer.views.actuator_words.fit_panel"
 _ACTUATOR = "rotor.command.actuator.report"
 _SECTION = "explorer.export.figures.actuator_section"
@@ -167,6 +168,16 @@ def _record(*path: str, size: float = 1.0) -> Read:
 def _verdict_record(*path: str, size: float = 1.0) -> Read:
     """A number of `rotor actuator --json`."""
     return _cell("verdict_record", *path, size=size)
+
+
+def _travelling(name: str) -> Read:
+    """A number of the page that travels, in whole kilowatts as for a heavy helicopter."""
+
+    def read(screen: Screen) -> str:
+        value = None if screen.documents is None else screen.documents.travelling.get(name)
+        return "" if value is None else f"{value:.0f}"
+
+    return read
 
 
 def _swept(name: str, size: float = 1.0) -> Read:
@@ -370,6 +381,7 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
             Place("report, line", "explorer.text.line.sentence", _report(" needs # ±")),
             Place("report, card", "explorer.export.report.report_html", _report(" Now # kW")),
             Place("report, table", _COMPARISON, _report("Total power # kW")),
+            Place("page that travels", _LIVE, _travelling("power")),
             Place("CSV", "explorer.export.provenance.provenance_lines", _document("provenance", "total power # kW")),
             Place("notebook", "rotor.Solution.__repr__", _document("notebook", "power # kW")),
             Place("solve", _SOLVE, _solved("(?m)^total +# kW")),
@@ -393,6 +405,7 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
             Place("report, line", "explorer.text.line.sentence", _report(f"needs {NUMBER} ± #")),
             Place("report, card", "explorer.export.report.report_html", _report(f" Now {NUMBER} kW ± #")),
             Place("report, causes", _CAUSES, _report("Uncertainty of power Power ± #")),
+            Place("page that travels", _LIVE, _travelling("band")),
             Place("solve --doubt", _DOUBT_RECORD, _record("doubt", "total_w", size=_KILO)),
         ),
     ),

@@ -16,6 +16,7 @@ from explorer.charts.plots import SWEEP, PowerCurve, PowerCurves
 from explorer.charts.probe_drawing import probe_panel
 from explorer.export.contents import DesignReport, ReportEntry
 from explorer.export.figures import actuator_section
+from explorer.export.live import live_html
 from explorer.export.provenance import provenance_lines
 from explorer.export.report import report_html
 from explorer.model.inputs import Inputs, ViewState, baseline_of
@@ -31,6 +32,7 @@ from explorer.views.work import shown_doubt
 from explorer.workers.call import at_once
 from rotor import Design, Solution, doubt, solution_record, solve, sweep
 from rotor.actuator import Verdict
+from rotor.aero.inflow import INFLOW_MODELS
 from rotor.command import actuator as actuator_command
 from rotor.command.solve import report as solve_report
 from rotor.trim.doubt import Doubt
@@ -78,6 +80,26 @@ class Documents:
         entries = [ReportEntry("Now", self.solution)]
         content = DesignReport(ReportEntry("Reference", self.reference), entries, ViewState())
         return plain(report_html(content, None, _NoCurves()))
+
+    @cached_property
+    def travelling(self) -> Mapping[str, float]:
+        """Total power and its band of the page that travels, as its script makes them of the polynomials at the shared
+        twist; empty where the polynomials take long."""
+        design = self.solution.design
+        quick = not INFLOW_MODELS[design.models.inflow].load_dependent and not design.hovering
+        if not quick or design.models.bending or design.rotor.blade.carried is not None:
+            return {}
+        block = re.search(r'id="model"[^>]*>(.*?)</script>', live_html(self.solution), re.DOTALL)
+        assert block is not None
+        model = json.loads(block[1])
+        places = [(one["shared"] - one["centre"]) / one["half"] for one in model["handles"]]
+        terms = np.array([np.prod(np.power(places, powers)) for powers in model["exponents"]])
+        # Bands are polynomials of lower order.
+        parts = [np.dot(row, terms[: len(row)]) for row in model["doubt"]["power"]]
+        return {
+            "power": float(np.array(model["power"]["total"]) @ terms),
+            "band": float(np.linalg.norm(parts)),
+        }
 
     @cached_property
     def provenance(self) -> str:

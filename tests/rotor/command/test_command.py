@@ -28,7 +28,8 @@ KEYS = [
     "ct_over_sigma", "cq", "cq_over_sigma", "shaft_torque_nm", "rotor_lift_n", "rotor_drag_n",
     "collective_deg", "cyclic_1c_deg", "cyclic_1s_deg", "coning_deg", "flap_1c_deg", "flap_1s_deg",
     "shaft_tilt_deg", "lambda0", "reverse_flow_area_percent", "stalled_area_percent", "dynamic_stall",
-    "stalled_percent", "elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "control_power_w",
+    "stalled_percent", "past_static_percent",
+    "elastic_twist_deg", "torsion_frequencies_per_rev", "pitch_link_load_n", "control_power_w",
     "elapsed_ms",
 ]  # fmt: skip
 

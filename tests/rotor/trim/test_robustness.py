@@ -15,7 +15,7 @@ from rotor.aero.inflow import INFLOW_MODELS
 from rotor.aero.problem import build_problem
 from rotor.design.aircraft import Stand
 from rotor.design.quantities import CONDITION, PRESETS, STAND
-from rotor.trim import forward
+from rotor.trim import forward, reach
 from rotor.trim import newton as newton_module
 from rotor.trim.analysis import Analysis
 from rotor.trim.forward import easier_condition, first_guess
@@ -50,7 +50,7 @@ def check(solution: Solution) -> None:
 
 
 NAMED = {
-    "mass_kg": r"(\d+) kg at this speed",
+    "mass_kg": r"(\d+) kg (?:at this speed|in hover)",
     "mu": r"advance ratio (\d\.\d+) at this mass",
 }
 """What refusals name."""
@@ -68,6 +68,15 @@ NAMED = {
         # Stalled, and beyond the largest collective.
         pytest.param({"mass_kg": 9_500.0}, "mu", (0.5, 0.55, 0.6), marks=pytest.mark.slow),
         ({"rotor": "gazelle", "preset": "thesis", "mass_kg": 3_900.0}, "mu", (0.24, 0.3)),
+        # In hover the blade loading ends it, or the rotor's largest thrust.
+        ({"hover": True}, "mass_kg", (17_600.0, 20_000.0, 30_000.0)),
+        ({"hover": True, "twist": "linear:-20"}, "mass_kg", (18_000.0, 26_000.0)),
+        ({"hover": True, "rotor": "r22"}, "mass_kg", (1_240.0, 1_400.0, 2_000.0)),
+        (
+            {"hover": True, "rotor": "bo105", "preset": "thesis", "altitude_m": 2_000.0},
+            "mass_kg",
+            (4_500.0, 6_000.0),
+        ),
     ],
     ids=str,
 )
@@ -89,8 +98,27 @@ def test_the_largest_value_that_a_refusal_names_is_where_trims_end_whatever_was_
     assert not solved(1.02 * largest).converged
 
 
-def test_the_largest_loading_that_a_refusal_names_on_a_stand_does_not_depend_on_that_asked_for():
-    design = make_design(mu=0.25, trim="wind-tunnel", stand={"ct_over_sigma": 0.14})
+@pytest.mark.parametrize(
+    ("arguments", "asked", "where"),
+    [
+        ({"mu": 0.25, "trim": "wind-tunnel"}, (0.14, 0.18, 0.25), "at this advance ratio"),
+        (
+            {"mu": 0.5, "rotor": "pca2", "trim": "free-rotor"},
+            (0.13, 0.16),
+            "at this advance ratio",
+        ),
+        (
+            {"hover": True, "rotor": "knight-hefner-3", "trim": "wind-tunnel"},
+            (0.16, 0.2),
+            "in hover",
+        ),
+    ],
+    ids=str,
+)
+def test_the_largest_loading_that_a_refusal_names_on_a_stand_does_not_depend_on_that_asked_for(
+    arguments: dict[str, Any], asked: tuple[float, ...], where: str
+):
+    design = make_design(**arguments, stand={"ct_over_sigma": asked[0]})
 
     def loaded(value: float) -> Solution:
         stand = Stand(ct_over_sigma=value)
@@ -98,12 +126,40 @@ def test_the_largest_loading_that_a_refusal_names_on_a_stand_does_not_depend_on_
 
     named = {
         match[1]
-        for value in (0.14, 0.18, 0.25)
-        for match in re.finditer(r"C_T/σ (\d\.\d+) at this advance ratio", loaded(value).message)
+        for value in asked
+        for match in re.finditer(rf"C_T/σ (\d\.\d+) {where}", loaded(value).message)
     }
     (text,) = named
     assert loaded(float(text)).converged
     assert not loaded(1.02 * float(text)).converged
+
+
+def test_a_largest_mass_is_found_once_for_all_masses_that_are_asked_for(
+    monkeypatch: pytest.MonkeyPatch,
+):
+    def refused(mass: float) -> str:
+        message = solve(make_design(mu=0.12, mass_kg=mass, inflow="drees")).message
+        (named,) = re.findall(r"\d+ kg at this speed", message)
+        return named
+
+    first = refused(20_000.0)
+
+    def never(*_: object) -> None:
+        raise AssertionError("the largest mass of this design is known")
+
+    monkeypatch.setattr(reach._Follower, "_result", never)
+    assert refused(24_000.0) == first
+
+
+def test_where_a_caller_stops_no_largest_mass_is_kept():
+    """The next solve of the same design looks for it."""
+    design = make_design(mu=0.13, mass_kg=20_000.0, inflow="drees")
+    refused = solve(design, options=replace(DEFAULT_OPTIONS, remedy=False))
+    stops = iter([False] * 3)
+    stopping = replace(DEFAULT_OPTIONS, stop=lambda: next(stops, True))
+    assert reach.largest(refused, stopping).mass_kg is None
+    assert next(stops, None) is None
+    assert reach.largest(refused, DEFAULT_OPTIONS).mass_kg is not None
 
 
 @given(
