@@ -68,7 +68,8 @@ def _line(report: DesignReport) -> str:
     """Of the first design against the reference."""
     entry, reference = report.entries[0], report.reference.solution
     other = reference if report.comparable(entry) else None
-    return sentence(entry.solution, report.units, other, report.band(entry))
+    # The models stand below it, in words.
+    return sentence(entry.solution, report.units, other, report.band(entry), models=False)
 
 
 def _glance(report: DesignReport) -> Markup:

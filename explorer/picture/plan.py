@@ -170,7 +170,7 @@ REGIONS = {
         lambda of: (of.separated, of.separated_thrust),
     ),
     "past_static": Region(
-        "Past static angle",
+        "Past static",
         past_static_segments,
         lambda of: (of.past_static, of.past_static_thrust),
     ),

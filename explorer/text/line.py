@@ -444,11 +444,18 @@ def plain(pieces: Sequence[LinePiece], note: str = "") -> str:
 
 
 def sentence(
-    solution: Solution, units: Units, reference: Solution | None = None, band: Doubt | None = None
+    solution: Solution,
+    units: Units,
+    reference: Solution | None = None,
+    band: Doubt | None = None,
+    *,
+    models: bool = True,
 ) -> str:
-    """The line of a solution without a page. `band`: of its power and of the change from the reference."""
+    """The line of a solution without a page. `band`: of its power and of the change from the reference. `models`:
+    whether it says how the answer is computed."""
     design = solution.design
-    pieces = [*design_pieces(design, units), *power_pieces(solution, units, band)]
+    pieces = [piece for piece in design_pieces(design, units) if models or piece.part != MODELS]
+    pieces += power_pieces(solution, units, band)
     if reference is not None and reference.design != design:
         within = None if band is None else band.change_band
         change = solution.power.total - reference.power.total

@@ -113,14 +113,14 @@
   // On the disk in the scene; on its plan, which draws outlines.
   const REGIONS = [
     ['stall', 'Separated', `<rect width="20" height="11" fill="#8fcf7c"/>${STRIPES}`],
-    ['past_static', 'Past static angle', line('var(--rx-stall)', '1.5 3.5', 2)],
+    ['past_static', 'Past static', line('var(--rx-stall)', '1.5 3.5', 2)],
     ['reverse_flow', 'Reverse flow', `<rect x=".7" y=".7" ${FRAMED}/>`],
     ['wake', 'Tip vortices', `<path ${CURVE}/>`],
     ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '4.5 2.5', 2)],
   ];
   const PLANNED = [
     ['stall', 'Separated', line('var(--rx-stall)')],
-    ['past_static', 'Past static angle', line('var(--rx-stall)', '1.5 3.5', 2)],
+    ['past_static', 'Past static', line('var(--rx-stall)', '1.5 3.5', 2)],
     ['reverse_flow', 'Reverse flow', line('var(--rx-dim)')],
     ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '3 4')],
   ];

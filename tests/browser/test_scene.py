@@ -207,7 +207,8 @@ def test_disk_and_plan_have_the_colours_that_files_have(browser: Browser, app: A
         watched = Watched(page)
         watched.open(app.address)
         page.evaluate(
-            "() => ['stall', 'reverse_flow', 'drag_divergence'].forEach(mark => RX.send('region', mark))"
+            """() => ['stall', 'past_static', 'reverse_flow', 'drag_divergence']
+                .forEach(mark => RX.send('region', mark))"""
         )
         watched.show("Mach number")
         watched.answered(wholly=True)
@@ -223,6 +224,7 @@ def test_disk_and_plan_have_the_colours_that_files_have(browser: Browser, app: A
     image = np.asarray(Image.open(BytesIO(png)).convert("RGBA"))[..., :3].astype(int)
     for (x, y), colour, (*flat, alpha) in zip(at, seen, plan, strict=True):
         there = image[int(480 + 479 * y), int(480 + 479 * x)]
-        np.testing.assert_allclose(colour, there, atol=6.0, err_msg=f"{x}, {y}")
+        # The plan is read where it is asked; a pixel of the others lies up to half a pixel beside.
+        np.testing.assert_allclose(colour, flat, atol=6.0, err_msg=f"{x}, {y}")
         np.testing.assert_allclose(flat, there, atol=4.0, err_msg=f"{x}, {y}")
         assert alpha == 255
