@@ -252,8 +252,8 @@ class KeyMark(NamedTuple):
     title: str
     colour: Rgb
     """Of the outline."""
-    dashes: str | None
-    """Of the outline, as SVG writes them; None for a solid line."""
+    dashes: tuple[float, float] | None
+    """Lengths of the pieces of the outline and of the gaps, in units of a swatch 14 long; None for a solid line."""
 
 
 def key_marks(solution: Solution) -> list[KeyMark]:
@@ -267,9 +267,9 @@ def key_marks(solution: Solution) -> list[KeyMark]:
     if MarkedRegion.SEPARATED in has:
         shown.append(KeyMark("separated", ink.stall, None))
     if solution.past_static_area > 0.0:
-        shown.append(KeyMark("past the static angle", ink.stall, "1.5 2.5"))
+        shown.append(KeyMark("past the static angle", ink.stall, (1.5, 2.5)))
     if MarkedRegion.DASH in has:
-        shown.append(KeyMark("drag divergence", ink.drag_divergence, "4 3"))
+        shown.append(KeyMark("drag divergence", ink.drag_divergence, (4.0, 3.0)))
     return shown
 
 
@@ -283,7 +283,7 @@ def key_entries(solution: Solution) -> list[tuple[str, Markup]]:
                 d="M0,4h14",
                 stroke=css(mark.colour),
                 stroke_width=3,
-                stroke_dasharray=mark.dashes,
+                stroke_dasharray=mark.dashes and "{:g} {:g}".format(*mark.dashes),
             ),
         )
         for mark in key_marks(solution)

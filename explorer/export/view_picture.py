@@ -32,8 +32,8 @@ CARDS = Covered(140 / HEIGHT, 118 / HEIGHT)
 """What the line above the scene and the key below it cover."""
 _EDGE, _WIDTH = 40, 420
 """[px] of the margin, and of the scale."""
-_PIECES: dict[str | None, tuple[int, int]] = {None: (34, 0), "4 3": (14, 6), "1.5 2.5": (4, 6)}
-"""Lengths of the pieces of an outline in the key, and of the gaps [px], by `KeyMark.dashes`."""
+_SWATCH, _DASH_UNIT = 34, 34 / 14
+"""[px] of an outline in the key, and of the unit of `KeyMark.dashes`."""
 Label = tuple[str, float, float]
 """Words, and where they stand: fractions of the width from the left and of the height from above."""
 
@@ -89,9 +89,12 @@ def view_png(
         for mark in reversed(key_marks(solution)):
             write(right, below - 24, mark.title, 24, ink, "rs")
             right -= round(font.getlength(mark.title)) + 12
-            length, gap = _PIECES[mark.dashes]
-            for left in range(right - 34, right, length + gap):
-                draw.line((left, below - 32, left + length, below - 32), mark.colour, 5)
+            length, gap = mark.dashes or (_SWATCH / _DASH_UNIT, 0.0)
+            for k in range(round(_SWATCH / _DASH_UNIT / (length + gap))):
+                left = right - _SWATCH + _DASH_UNIT * k * (length + gap)
+                draw.line(
+                    (left, below - 32, left + _DASH_UNIT * length, below - 32), mark.colour, 5
+                )
             right -= 64
     numbers = PngInfo()
     numbers.add_itxt("Design", json.dumps(solution.design.to_dict(), ensure_ascii=False))

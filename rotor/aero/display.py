@@ -154,32 +154,36 @@ class _ElementFlow:
     cd_mach: Array
 
 
-def regions(disk: Disk, elements: BladeElements, stall_margin: Array) -> Regions:
+def regions(disk: Disk, elements: BladeElements) -> Regions:
     """The regions of a disk from its blade elements.
 
     The flow of a steady section is separated beyond the stall angle, that of an unsteady one where f″ is below
-    `STALLED`. stall_margin: of the elements [rad], (elements, azimuths).
+    `STALLED`.
     """
-    e = _as_solved if len(disk.r) >= ENOUGH_ELEMENTS else _on_finer_radii
-    return _counted(e(disk, elements, stall_margin))
+    if len(disk.r) >= ENOUGH_ELEMENTS:
+        return _counted(_as_solved(disk, elements))
+    return _counted(_on_finer_radii(disk, elements))
 
 
-def _as_solved(disk: Disk, elements: BladeElements, stall_margin: Array) -> _ElementFlow:
-    unsteady = elements.unsteady
+def _as_solved(disk: Disk, elements: BladeElements) -> _ElementFlow:
+    e = elements
+    margin = stall_margins(e.alpha, e.mach, e.u_t, disk.weight, disk.offset, disk.stall)
     return _ElementFlow(
         r=disk.r,
         cells=disk.cells,
-        u_t=elements.u_t,
-        lift=disk.dr[:, None] * elements.fz,
-        margin=stall_margin,
-        attached=stall_margin if unsteady is None else unsteady.separation - STALLED,
-        cd_mach=elements.cd_mach,
+        u_t=e.u_t,
+        lift=disk.dr[:, None] * e.fz,
+        margin=margin,
+        attached=margin if e.unsteady is None else e.unsteady.separation - STALLED,
+        cd_mach=e.cd_mach,
     )
 
 
-def _on_finer_radii(disk: Disk, elements: BladeElements, stall_margin: Array) -> _ElementFlow:
-    """Elements at even radii: what is smooth is linear along the blade, and the angle of attack follows from it."""
-    del stall_margin  # It jumps beside reverse flow.
+def _on_finer_radii(disk: Disk, elements: BladeElements) -> _ElementFlow:
+    """Elements at even radii: what is smooth is linear along the blade, and the angle of attack follows from it.
+
+    The angle itself, and with it the margin to stall, jumps beside reverse flow.
+    """
     matrix, cells = _finer_radii(disk.root, tuple(disk.r.tolist()))
     pitch = elements.theta if elements.rates is None else pitch_of_alpha(elements)
     limits = stall_angles(elements.mach, disk.weight, disk.offset, disk.stall)
@@ -201,6 +205,7 @@ def _on_finer_radii(disk: Disk, elements: BladeElements, stall_margin: Array) ->
 
 
 def _counted(e: _ElementFlow) -> Regions:
+    """The sums over the elements of each region."""
     reverse = e.u_t < 0.0
     separated = (e.attached < 0.0) & ~reverse
     flows = ~separated & ~reverse
@@ -239,9 +244,7 @@ def stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, flo
 
 def own_stalled_parts(problem: Problem, elements: BladeElements) -> tuple[float, float]:
     """`stalled_parts` on the azimuths of the trim."""
-    disk, e = problem.disk, elements
-    margin = stall_margins(e.alpha, e.mach, e.u_t, disk.weight, disk.offset, disk.stall)
-    found = regions(disk, e, margin)
+    found = regions(problem.disk, elements)
     return found.separated, found.separated_moment
 
 

@@ -95,7 +95,7 @@ def shown_of(solution: Solution) -> Shown:
     problem, elements = _evaluated(solution)
     asked = at_display_azimuths(problem, elements)
     fields = _fields(*asked)
-    seen = regions(asked[0].disk, asked[1], fields.stall_margin)
+    seen = regions(asked[0].disk, asked[1])
     shown = Shown(fields, seen, _elastic(problem, elements, asked))
     if not solution.converged:
         return shown

@@ -202,6 +202,18 @@ class TestAreas:
         assert fine > 0.002
         assert_allclose(coarse, fine, rtol=0.0, atol=near)
 
+    @pytest.mark.parametrize(("mu", "mass"), [(0.2, 12e3), (FAST, HEAVY), (FAST, 11e3)])
+    def test_other_regions_are_those_of_a_fine_grid(self, mu: float, mass: float):
+        """Areas within 0.8 % of the disk, the thrust in them within 0.6 %: 24 elements beside 320."""
+        design = heavy("pitt-peters", mu).at(mass_kg=mass)
+        fine = replace(design, models=replace(design.models, elements=320, azimuths=360))
+        one, other = (solve(asked).require().regions for asked in (design, fine))
+        assert other.past_static > 0.02
+        assert other.drag_divergence > 0.04
+        assert_allclose(one.past_static, other.past_static, rtol=0.0, atol=0.008)
+        assert_allclose(one.drag_divergence, other.drag_divergence, rtol=0.0, atol=0.008)
+        assert_allclose(one.past_static_thrust, other.past_static_thrust, rtol=0.0, atol=0.006)
+
     def _stalled(self, mu: float, mass: float, *, delays: bool) -> tuple[float, float]:
         """Stalled area on 24 uneven elements, and on a fine grid."""
         design = with_models(heavy("pitt-peters", mu).at(mass_kg=mass), stall_delay=delays)
