@@ -40,6 +40,7 @@ from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import BY_HAND, FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.line import LINE
+from explorer.views.mission import MISSION
 from explorer.views.notice import NOTICE, PROMPT
 from explorer.views.page_state import (
     Effect,
@@ -78,7 +79,7 @@ from rotor.support.markup import tag
 from rotor.support.processes import Processes
 from rotor.support.user_input import brief
 
-_ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
+_ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL, MISSION
 AT_ONCE = BAR, PROMPT
 """Panels that follow a press before the update that it wakes."""
 _NUMBER = LINE, POWER, HAND
@@ -165,8 +166,12 @@ class Page:
             with tasks["Map"]:
                 power_map = MapPanel(context, self.optimise)
             with tasks["Schedule"]:
-                schedule = SchedulePanel(context, self.optimise)
-        context.refreshing += [self.optimise.refresh, power_map.refresh, schedule.refresh]
+                self._schedule = SchedulePanel(context, self.optimise)
+        context.refreshing += [
+            self.optimise.refresh,
+            power_map.refresh,
+            self._schedule.refresh,
+        ]
         with context.layout.modes["actuate"]:
             self.actuator = ActuatorPanel(context, address)
         self.optimise.mission = lambda design: mission_over(design, self.actuator.inputs().hours)
@@ -176,7 +181,7 @@ class Page:
         """What stands on the left, and the panels."""
         context, start = self.context, self.latest.inputs
         layout, gui = context.layout, context.gui
-        texts = {**drawer_texts(context), **self.actuator.texts}
+        texts = {**drawer_texts(context), **self.actuator.texts, **self._schedule.texts}
         with layout.drawers["probe"]:
             probe = ProbePanel(context, self.scene)
         with layout.drawers["open"]:
@@ -187,7 +192,7 @@ class Page:
                 self.history = HistoryPanel(
                     context,
                     self.actuator.hand,
-                    self._carry,
+                    self._restore_actuator,
                     start,
                     facts.kept.get(share.STEPS_KEPT),
                 )
@@ -382,6 +387,7 @@ class Page:
                 )
                 self.panel_updater.memory = self.panel_updater.memory.then(state, last)
                 self.file.follow(state)
+                self.actuator.write_hours()
             case "number":
                 self._learn()
                 follow(_NUMBER.__contains__)
@@ -511,9 +517,19 @@ class Page:
                 self.actuator.perform(effect)
 
     def _carry(self, actuator: ActuatorInputs) -> None:
-        """A link or a file has an actuator on board: show it."""
-        self.actuator.perform(SetHand(BY_HAND, vars(actuator)))
+        """A link or a file has an actuator on board: show it. The hours of the mission are no part of it, and stay."""
+        self._put_actuator(replace(actuator, hours=self.actuator.inputs().hours))
         self.context.layout.show_mode("actuate")
+
+    def _restore_actuator(self, actuator: ActuatorInputs) -> None:
+        """An undo changes the actuator: show it. The hours of the mission change in any mode: others have them, too."""
+        only_hours = replace(actuator, hours=self.actuator.inputs().hours) == self.actuator.inputs()
+        self._put_actuator(actuator)
+        if not only_hours:
+            self.context.layout.show_mode("actuate")
+
+    def _put_actuator(self, actuator: ActuatorInputs) -> None:
+        self.actuator.perform(SetHand(BY_HAND, vars(actuator)))
 
     def _default(self, opening: Inputs, label: str) -> None:
         """A slider was double-clicked."""

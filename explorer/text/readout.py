@@ -570,10 +570,10 @@ def mission_words(mission: Mission) -> str:
 
 
 def mission_hours(mission: Mission) -> str:
-    """The legs with their hours, and where these are set."""
+    """The legs with their hours, and whether these are assumed."""
     legs = ", ".join(f"{leg.name} {leg.hours:g} h" for leg in mission.legs)
     assumed = " (assumed)" if mission.assumed else ""
-    return f"Mission: {legs}{assumed}. Set the hours on the flight bar in Actuate."
+    return f"Mission: {legs}{assumed}."
 
 
 def limit_words(name: str) -> str:

@@ -10,13 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from explorer.model.actuator_inputs import (
-    ActuatorState,
-    HandSettings,
-    hours_text,
-    hours_with,
-    schedule_at,
-)
+from explorer.model.actuator_inputs import ActuatorState, HandSettings, schedule_at
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
 from explorer.text.readout import balance, change_kind, fuel_words
@@ -35,13 +29,11 @@ from explorer.views.page_state import (
     Panel,
     PanelMemory,
     Questions,
-    SetAddress,
     SetHand,
 )
 from rotor.actuator import ActuatorFlight, Verdict
 from rotor.actuator.stopped import numbers_of
 from rotor.optimisation import FlightLeg
-from rotor.optimisation.mission import ASSUMED_HOURS
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
 from rotor.trim.doubt import sureness
 
@@ -317,20 +309,6 @@ def choose_state(now: PageState, state: ActuatorState) -> tuple[Effect, ...]:
     return (after_flight(hand),)
 
 
-MISSION = "h"
-"""Name of the hours in the address."""
-
-
-def set_hours(now: PageState, leg: int, hours: float) -> tuple[Effect, ...]:
-    """The hours of a leg were set: the mission of verdict, balance, schedule and search."""
-    before = now.hand.actuator.hours
-    if leg >= len(before):
-        return ()
-    after = hours_with(before, leg, hours)
-    kept = None if after == ASSUMED_HOURS else hours_text(after)
-    return SetHand(actuator={"hours": after}), SetAddress(MISSION, kept)
-
-
 def after_flight(hand: HandSettings) -> SetHand:
     """As set: no schedule and no stop any more, and the voltages are those that a hand set."""
     before = {"drives": hand.by_hand.drives, "crossed": hand.by_hand.crossed}
@@ -358,12 +336,7 @@ def _driven(now: PageState, x: float | None) -> dict[str, Any]:
     return {} if flight is None else schedule_at(flight, one.installed, POINTS_PER_LEG * x)
 
 
-_PRESSES = {
-    "fly": fly_to,
-    "state": choose_state,
-    "balance": choose,
-    "hours": lambda now, value: set_hours(now, *value),
-}
+_PRESSES = {"fly": fly_to, "state": choose_state, "balance": choose}
 FLIGHT = Panel(
     view, blade_out, asks=asks, remember=remember, reacts=follow_flight, presses=_PRESSES
 )

@@ -109,9 +109,10 @@
       field.toggleAttribute('data-assumed', assumed);
     });
   }
-  card.addEventListener('change', ({target}) => {
-    if (!target.dataset.hours) return;
-    if (target.value !== '') RX.send('hours', [Number(target.dataset.hours), clamp(Number(target.value), 0, 99)]);
+  // Fields of the flight bar, and of the Schedule section where a rotor has no flight bar.
+  addEventListener('change', ({target}) => {
+    const leg = /** @type {HTMLInputElement} */ (target).dataset.hours, {value} = /** @type {HTMLInputElement} */ (target);
+    if (leg && value !== '') RX.send('hours', [Number(leg), clamp(Number(value), 0, 99)]);
   });
   card.addEventListener('focusout', ({target}) => {
     if (target.dataset.hours) setTimeout(() => { if (RX.state.flight) showHours(RX.state.flight); }, 600);

@@ -76,7 +76,7 @@ class HistoryPanel:
         start: Inputs,
         stored: str | None,
     ) -> None:
-        """`hand`: what is set in Actuate; `carry` sets an actuator there and shows it. `stored`: the history as the
+        """`hand`: what is set in Actuate; `carry` sets an actuator there, as an undo does. `stored`: the history as the
         page kept it over a reload; None where it has none."""
         self._context, self._hand, self._carry, gui = context, hand, carry, context.gui
         self._lock = threading.RLock()

@@ -178,6 +178,13 @@ def test_hours_of_a_leg_are_set_on_the_flight_bar(watched: Watched):
     page.wait_for_function("() => RX.state.flight?.hours[3] === 1.5", timeout=VERDICT)
     page.wait_for_function("() => /[&?]h=0.5,0.25,1,1.5/.test(location.search)", timeout=VERDICT)
     expect(page.locator(".rxf-earns")).not_to_contain_text("assumed", timeout=VERDICT)
+    page.goto(page.url)  # As a colleague gets it.
+    page.wait_for_function("() => RX.state.flight?.hours[3] === 1.5", timeout=VERDICT)
+    fields.nth(0).fill("2")
+    fields.nth(0).press("Tab")
+    page.wait_for_function("() => /[&?]h=2,0.25,1,1.5/.test(location.search)", timeout=VERDICT)
+    page.get_by_role("button", name="Undo").click()
+    page.wait_for_function("() => /[&?]h=0.5,0.25,1,1.5/.test(location.search)", timeout=VERDICT)
     for k in range(4):
         fields.nth(k).fill("0")
         fields.nth(k).press("Tab")

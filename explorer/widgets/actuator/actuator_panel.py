@@ -8,13 +8,14 @@ from explorer.model.actuator_inputs import (
     ActuatorInputs,
     HandSettings,
     Outcome,
+    hours_text,
     read_hours,
     verdict_inputs_of,
     verdict_tasks,
 )
 from explorer.picture.lifted_picture import flown_twist, lifted_picture
-from explorer.sharing.share import Address
-from explorer.views.flight import BY_HAND, MISSION, after_flight
+from explorer.sharing.share import HOURS, Address
+from explorer.views.flight import BY_HAND, after_flight
 from explorer.views.page_state import SetAddress, SetHand
 from explorer.views.pay import SUPPOSED, read_place
 from explorer.widgets.actuator.actuator_controls import ActuatorControls
@@ -36,7 +37,7 @@ class ActuatorPanel:
         self.blade = LiftedScene(context.client, context.bridge)
         context.leaving.append(self.blade.stop)
         place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used")
-        hours = address.read(MISSION, read_hours, ASSUMED_HOURS, "Link: mission not used")
+        hours = address.read(HOURS, read_hours, ASSUMED_HOURS, "Link: mission not used")
         self._hand, self._lock = (
             HandSettings(on_stage=place is not None, place=place),
             threading.Lock(),
@@ -71,6 +72,11 @@ class ActuatorPanel:
             self._set(**effect.changes)
         if effect.actuator:
             self.controls.place(effect.actuator)
+
+    def write_hours(self) -> None:
+        """Put the hours of the mission into the address; those that are assumed need no place in it."""
+        hours = self.inputs().hours
+        self._address[HOURS] = None if hours == ASSUMED_HOURS else hours_text(hours)
 
     def _set(self, **changes: Any) -> None:
         with self._lock:  # Widgets and presses have threads of their own.

@@ -9,7 +9,7 @@ from explorer.charts import schedule_view
 from explorer.charts.schedule_view import ScheduleProgress
 from explorer.model.inputs import with_optimum
 from explorer.text.glossary import hint
-from explorer.text.readout import mission_hours
+from explorer.views.mission import TEXT as MISSION_TEXT
 from explorer.widgets.context import TabContext
 from explorer.widgets.elements import PanelChart, WorkButtons
 from explorer.widgets.optimise.optimise_panel import OptimisePanel
@@ -41,7 +41,8 @@ class SchedulePanel:
         """Why what was asked for last is no schedule."""
         self._drawn: object = None
         self._concept = gui.add_html("")
-        self._read = gui.add_html("")
+        mission = gui.add_html("")
+        self.texts = {MISSION_TEXT: partial(setattr, mission, "content")}
         entries, halt = ("schedule", "schedule_stop"), partial(context.work.halt, NAME)
         self._buttons = WorkButtons(
             gui, "Compute schedule", "Stop schedule", entries, self.begin, halt
@@ -71,13 +72,10 @@ class SchedulePanel:
         else:
             self._work.begin(NAME, ScheduleTask(plan), TIME_LIMIT, _URGENCY)
 
-    def refresh(self, design: Design | None) -> None:
+    def refresh(self, _: Design | None) -> None:
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
         self._concept.content = tag("div.rx.rx-dim.rx-small", f"Concept: {title}")
-        if design is not None:
-            line = mission_hours(self._search.mission(design))
-            self._read.content = tag("div.rx.rx-dim.rx-small", line, data_explorer="mission")
         record, units = self._work[NAME], self._context.units
         under_way = record is not None and record.under_way
         kind = "running" if under_way else "idle" if record is None else "done"
