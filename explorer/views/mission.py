@@ -3,9 +3,12 @@
 They are set on the flight bar of Actuate; for a rotor that carries no actuator, in the Schedule section.
 """
 
+from collections.abc import Sequence
+
 from explorer.model.actuator_inputs import hours_with, mission_over
 from explorer.text.readout import mission_hours
 from explorer.views.page_state import Effect, PageState, Panel, SetHand
+from rotor import Design
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation import FlightLeg, standard_flight
 from rotor.support.markup import Markup, tag
@@ -19,14 +22,22 @@ def view(now: PageState) -> dict[str, Markup]:
     design, hours = now.sliders, now.hand.actuator.hours
     if design is None:
         return {}
-    mission = mission_over(design, hours)
+    try:
+        mission = mission_over(design, hours)
+    except ValueError as error:  # A free rotor does not hover: set the hours of that leg to 0.
+        return {TEXT: _with_fields(str(error), design, hours)}
     if design.aircraft.key == KNOWN_BLADE:
         words = f"{mission_hours(mission)} Set the hours on the flight bar in Actuate."
         return {TEXT: tag("div.rx.rx-dim.rx-small", words, data_explorer="mission")}
     assumed = " (assumed)" if mission.assumed else ""
-    words = tag("div.rx-dim.rx-small", f"Hours of the mission{assumed}")
-    fields = [_field(k, leg) for k, leg in enumerate(standard_flight(design, hours))]
-    return {TEXT: tag("div.rx", words, tag("div.rx-hours", fields), data_explorer="mission")}
+    return {TEXT: _with_fields(f"Hours of the mission{assumed}", design, hours)}
+
+
+def _with_fields(words: str, design: Design, hours: Sequence[float]) -> Markup:
+    """Words above a field for the hours of each leg."""
+    fields = [_field(place, leg) for place, leg in enumerate(standard_flight(design, hours))]
+    above = tag("div.rx-dim.rx-small", words)
+    return tag("div.rx", above, tag("div.rx-hours", fields), data_explorer="mission")
 
 
 def _field(place: int, leg: FlightLeg) -> Markup:

@@ -1,20 +1,22 @@
 """The mission of a page: where its hours are shown, and how they are set."""
 
 import re
+from dataclasses import replace
 
 import pytest
 
 from explorer.model.actuator_inputs import ActuatorInputs, HandSettings
-from explorer.model.inputs import OPENING, Inputs, with_rotor
+from explorer.model.inputs import OPENING, Inputs, StandInputs, with_rotor
 from explorer.views.mission import TEXT, set_hours, view
 from explorer.views.page_state import PageState, SetHand
+from rotor.optimisation.mission import ASSUMED_HOURS
 from rotor.support.assets import SHIPPED_ROTORS
 
 HOURS = (0.5, 0.0, 3.0, 0.25)
 
 
-def page_of(inputs: Inputs) -> PageState:
-    hand = HandSettings(actuator=ActuatorInputs(hours=HOURS))
+def page_of(inputs: Inputs, hours: tuple[float, ...] = HOURS) -> PageState:
+    hand = HandSettings(actuator=ActuatorInputs(hours=hours))
     return PageState(inputs, inputs.design(), None, hand=hand)
 
 
@@ -36,3 +38,11 @@ def test_the_hours_of_a_leg_change_those_alone():
     now = page_of(OPENING)
     assert set_hours(now, 1, 2.0) == (SetHand(actuator={"hours": (0.5, 2.0, 3.0, 0.25)}),)
     assert set_hours(now, 9, 2.0) == ()
+
+
+def test_a_free_rotor_says_that_it_does_not_hover_and_flies_without_that_leg():
+    free = replace(OPENING, inflow="uniform", stand=StandInputs("free-rotor", tip_mach=0.6))
+    refused = view(page_of(free, ASSUMED_HOURS))[TEXT]
+    assert "a free rotor needs wind to turn it" in refused
+    assert 'data-hours="0"' in refused
+    assert "slow 0.25 h, cruise 1 h" in view(page_of(free, (0.0, 0.25, 1.0, 0.25)))[TEXT]
