@@ -202,10 +202,8 @@ def verdict_inputs_of(inputs: ActuatorInputs, design: Design) -> VerdictInputs:
 
 def mission_over(design: Design, hours: Sequence[float]) -> Mission:
     """The mission that the flight bar shows, of a design wherever it flies now; ValueError with less than two legs."""
-    standing = replace(design.condition, advance_ratio=0.0, climb_speed=0.0)
-    legs = standard_flight(design, hours)
-    flown = tuple(leg for leg in legs if leg.hours > 0.0)
-    return Mission(replace(design, condition=standing), flown)
+    flown = tuple(leg for leg in standard_flight(design, hours) if leg.hours > 0.0)
+    return Mission(flown[0].of(design), flown)
 
 
 LONGEST = 99.0
