@@ -352,10 +352,23 @@ def test_table_of_verdicts():
 
 @pytest.mark.slow
 def test_command_json(answer: Callable[..., Any]):
-    found = answer("actuator", "--actuator", "AFC", "--plies", "1", "--to-mu", "0.25")
+    found = answer("actuator", "--actuator", "AFC", "--plies", "1")
     assert (list(found), found["actuator"]) == (KEYS, "AFC")
+    assert [leg["name"] for leg in found["mission"]["legs"]] == ["hover", "climb", "cruise", "fast"]
+    assert found["mission"]["assumed"]
     assert any("from memory" in caveat for caveat in found["caveats"])
     assert found["net_saving_w"] < found["gross_saving_w"]
+
+
+def test_options_of_the_two_legs_of_before_are_read_with_a_warning(
+    capsys: pytest.CaptureFixture[str],
+):
+    flags = "--json --actuator AFC --inflow uniform --elements 12 --azimuths 24 --to-mu 0.25"
+    assert main(["actuator", *flags.split()]) == 0
+    out, err = capsys.readouterr()
+    legs = json.loads(out)["mission"]["legs"]
+    assert [(leg["mu"], leg["hours"]) for leg in legs] == [(0.0, 0.5), (0.25, 0.5)]
+    assert "--from-mu, --to-mu and --share end with the next release: use --mission" in err
 
 
 def test_table_5_1_as_text_and_json(printed: Callable[..., str], answer: Callable[..., Any]):
