@@ -76,7 +76,8 @@ def _cost(step: WaterfallStep, units: Units, on: bool) -> str:
     if step.note or step.added is None:
         return cost_words(step, units)
     does = "save" if step.added > 0.0 else "cost"
-    verb = f"{does.capitalize()}s" if on else f"{step.switch.title} would {does}"
+    # Of the regions only stall can be off.
+    verb = f"{does.capitalize()}s" if on else f"Stall would {does}"
     size = units.watts(abs(step.added), 1)
     if size == units.watts(0.0, 1):
         size = f"less than {units.watts(0.1 * units.power[0].size, 1)}"
