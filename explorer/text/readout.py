@@ -38,8 +38,12 @@ def part_titles(*designs: Design) -> dict[str, str]:
     That of the climb is among them where one of the designs climbs or descends.
     """
     tested = [design.condition.stand is not None for design in designs]
-    titles = {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
-    titles = _ON_A_STAND if all(tested) else titles
+    if all(tested):
+        titles = _ON_A_STAND
+    elif any(tested):
+        titles = {**PART_TITLES, "parasite": "Parasite, propulsive"}
+    else:
+        titles = PART_TITLES
     if not any(design.vertical_speed for design in designs):
         return titles
     titles = {**titles, "climb": "Climb"}
@@ -67,7 +71,7 @@ def _panel(
     units: Units,
     band: Doubt | None,
 ) -> Markup:
-    """`words`: below the total, what it is and what it is compared with."""
+    """A total with its change, its table of parts and the ideal; `words`: what the total is, and against what."""
     power = solution.power
     total = units.power[0].text(power.total, fineness(power, units))
     return tag(
@@ -131,8 +135,10 @@ def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None
 
 
 def change_kind(change: float, word: str | None) -> Literal["", "less", "more"]:
-    """What the colour of a change says: nothing unless its sign is sure or likely."""
-    return "" if word not in ("sure", "likely") else "less" if change < 0.0 else "more"
+    """The colour of a change: none unless its sign is sure or likely."""
+    if word not in ("sure", "likely"):
+        return ""
+    return "less" if change < 0.0 else "more"
 
 
 def part_change(
@@ -147,7 +153,8 @@ def part_change(
 
     Where the band is not known, and where nothing changes, with these digits and without the last two.
     """
-    change, unit = getattr(power, name) - getattr(reference, name), units.power[0]
+    change = getattr(power, name) - getattr(reference, name)
+    unit = units.power[0]
     bands = {} if band is None else {**band.part_bands, "total": band.change_band}
     within = bands.get(name)
     if not within or max(abs(unit.of(change)), unit.of(within)) < 0.05:
@@ -169,7 +176,7 @@ def total_words(total: float, units: Units = SI) -> str:
 
 
 def total_size(total: float, units: Units = SI) -> str:
-    """The same without its unit."""
+    """Total power [W] as in `total_words`, without its unit."""
     return number(units.power[0].of(total), _fineness(total, units))
 
 
@@ -187,9 +194,9 @@ def _row(
 ) -> Markup:
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
-    apart, word = (
-        (BLANK, "") if reference is None else part_change(name, power, reference, band, units)
-    )
+    apart, word = BLANK, ""
+    if reference is not None:
+        apart, word = part_change(name, power, reference, band, units)
     return tag(
         "tr",
         tag("td", patch(PARTS[name]), title),
@@ -276,7 +283,7 @@ def _elastic(solution: Solution, read: Callable[[ElasticTwist], float]) -> float
 
 
 def _trim_rows(solution: Solution) -> list[tuple[str, _TrimRow]]:
-    """With the measure of efficiency that the flight has."""
+    """The trim quantities of a flight: in hover with the figure of merit, else with lift to drag."""
     other = "lift_to_drag" if solution.design.hovering else "figure_of_merit"
     return [(key, row) for key, row in TRIM_ROWS.items() if key != other]
 
@@ -361,10 +368,8 @@ def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:
     for key, (_, short, digits, _, read) in _trim_rows(solution):
         if not short:
             continue
-        a, b = (
-            number(read(pinned) if pinned.converged else None, digits),
-            number(read(solution), digits),
-        )
+        a = number(read(pinned) if pinned.converged else None, digits)
+        b = number(read(solution), digits)
         cells.append(
             tag(
                 "div.rx-four",
@@ -379,11 +384,8 @@ def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:
 
 def _name(letter: str) -> Markup:
     """A or B with the mark of its lines in the charts."""
-    return (
-        dash(PINNED, dashed=True) + tag("b", letter)
-        if letter == "A"
-        else dash(THIS) + tag("b", letter)
-    )
+    mark = dash(PINNED, dashed=True) if letter == "A" else dash(THIS)
+    return mark + tag("b", letter)
 
 
 def _compared_row(
@@ -427,7 +429,7 @@ def digits_of(power: float, units: Units, band: float | None = None) -> int:
 
 
 class BalanceRow(NamedTuple):
-    """What one part needs, or all do; more is positive."""
+    """The power that one part of an actuator adds, or all do; more is positive."""
 
     name: str
     value: float
@@ -448,7 +450,7 @@ def balance(
     bands: Sequence[float] = (),
     sourced: bool = True,
 ) -> list[BalanceRow]:
-    """What each part needs and what all do.
+    """The power that each part of an actuator adds, and all of them.
 
     savings, bands: as of `Verdict`. band: of their sum [W], with which its digits are those of `needs_words`.
     """
