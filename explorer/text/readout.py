@@ -181,6 +181,7 @@ def total_size(total: float, units: Units = SI) -> str:
 
 
 def _fineness(total: float, units: Units) -> int:
+    """Decimals of powers beside a total [W]."""
     return 1 if abs(total) < (200.0 if units.power[0] is WATT else 2e5) else 0
 
 
@@ -192,6 +193,7 @@ def _row(
     units: Units,
     band: Doubt | None,
 ) -> Markup:
+    """A part of power: its value, its share of the total, its change, and how sure that is."""
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
     apart, word = BLANK, ""
@@ -279,6 +281,7 @@ glossary."""
 
 
 def _elastic(solution: Solution, read: Callable[[ElasticTwist], float]) -> float | None:
+    """A number of the elastic twist; None for a blade that is rigid in torsion."""
     return float(read(solution.elastic)) if solution.elastic else None
 
 
@@ -321,6 +324,7 @@ def explanation(text: str) -> Markup:
 
 
 def dash(colour: str, dashed: bool = False) -> Markup:
+    """A short line as in the charts, before the name of what it draws."""
     if dashed:
         return tag("span.rx-dash.rx-dashed", style=f"color:{colour}")
     return tag("span.rx-dash", style=f"background:{colour}")
@@ -396,6 +400,7 @@ def _compared_row(
     units: Units,
     band: Doubt | None,
 ) -> Markup:
+    """A part of power, or the total, of A and of B, and the change."""
     b = units.power[0].of(getattr(power, part))
     a = None if reference is None else units.power[0].of(getattr(reference, part))
     changes = (BLANK, "") if reference is None else part_change(part, power, reference, band, units)
@@ -410,6 +415,7 @@ def _compared_row(
 
 
 def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | None = None) -> Markup:
+    """A row of a table: a title and numbers."""
     return tag(
         "tr",
         tag("td", title),
@@ -454,24 +460,35 @@ def balance(
 
     savings, bands: as of `Verdict`. band: of their sum [W], with which its digits are those of `needs_words`.
     """
-    unit, digits = units.power[0], digits_of(sum(power for _, power in savings), units, band)
+    unit = units.power[0]
+    digits = digits_of(sum(power for _, power in savings), units, band)
+    names = [_BALANCE_NAMES.get(name, name) for name, _ in savings]
     exact = [-unit.of(power) for _, power in savings]
     written = adding(exact, digits)
-    names = [
-        {"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings
-    ]
-    within = (*(bands or [0.0] * len(savings)), band or 0.0)
-    rows = zip(
-        (*names, "total"), (*exact, sum(exact)), (*written, sum(written)), within, strict=True
-    )
-    return [
-        BalanceRow(
-            name, value, number(shown, digits, sign=True), unit.of(sure),
-            _row_words(name, value, sure, units, sourced),
-            change_kind(value, sureness(value, unit.of(sure)) if value and (sure or name == "drive") else None),
-        )
-        for name, value, shown, sure in rows
-    ]  # fmt: skip
+    within = bands or [0.0] * len(savings)
+    rows = list[BalanceRow]()
+    for name, value, shown, sure in zip(names, exact, written, within, strict=True):
+        text = number(shown, digits, sign=True)
+        rows.append(_balance_row(name, value, text, sure, units, sourced))
+    total = number(sum(written), digits, sign=True)
+    rows.append(_balance_row("total", sum(exact), total, band or 0.0, units, sourced))
+    return rows
+
+
+_BALANCE_NAMES = {"gross": "its twist", "blade": "present blade"}
+"""Names on the page of parts of a net saving that have others in `Verdict`."""
+
+
+def _balance_row(
+    name: str, value: float, text: str, band: float, units: Units, sourced: bool
+) -> BalanceRow:
+    """One row from its value in the main unit, its text, and its band [W]."""
+    within = units.power[0].of(band)
+    word = None
+    if value and (band or name == "drive"):
+        word = sureness(value, within)
+    words = _row_words(name, value, band, units, sourced)
+    return BalanceRow(name, value, text, within, words, change_kind(value, word))
 
 
 def _row_words(name: str, value: float, band: float, units: Units, sourced: bool) -> str:
@@ -572,4 +589,5 @@ def pair_words(verdict: Verdict) -> str:
 
 
 def limit_words(name: str) -> str:
+    """The name of a limit of an actuator, in words."""
     return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")
