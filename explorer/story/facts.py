@@ -101,7 +101,7 @@ def _hover_twist(step: LectureStep) -> StepFacts:
         | {"induced_saving": Number("percent", saving, band=within)}
         | _of("angle", elastic=float(np.degrees(np.mean(elastic[0] - elastic[-1]))))
         | _of(
-            "angle",
+            "rate",
             best=linear_optimum(_BUILT, 0.0, None).rate_deg,
             best_rigid=linear_optimum(rigid, 0.0, None).rate_deg,
         )
@@ -205,7 +205,7 @@ def _fast_twist(step: LectureStep) -> StepFacts:
     moves = sorted(abs(rate(trimmed) - rate(untrimmed)) for untrimmed, trimmed in pairs)
     numbers = (
         _named(step, a, b)
-        | _of("angle", trim_low=moves[0], trim_high=moves[-1])
+        | _of("rate", trim_low=moves[0], trim_high=moves[-1])
         | _said(without_drag=doubt(*without).saving_words)
     )
     facts = blades.facts(numbers, b.power.total / a.power.total - 1.0, chart)
@@ -249,7 +249,7 @@ def _two_segments(step: LectureStep) -> StepFacts:
         | _said(
             twist_inner=angle_words(inputs.two_inner), twist_outer=angle_words(inputs.two_outer)
         )
-        | _of("angle", flat_low=min(flat), flat_high=max(flat))
+        | _of("rate", flat_low=min(flat), flat_high=max(flat))
     )
     level = (0.0,) * len(changes)
     lines = ChartLine("A", "a", level), ChartLine("B", "b", changes)
@@ -284,7 +284,7 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
     sure = difference_doubt((1.0 / len(stops),) * len(stops), moved, held)
     inside = sum(a <= fixed <= b for a, b in zip(low, high, strict=True))
     numbers = (
-        _of("angle", hover_best=rates[0], fast_best=rates[-1])
+        _of("rate", hover_best=rates[0], fast_best=rates[-1])
         | _of("mu", fast_mu=SPEEDS[-1])
         | _of("fine", gain_low=min(gains), gain_high=max(gains))
         | _said(saves="" if sure is None else sure.saving_words)

@@ -462,7 +462,7 @@ def test_rounded_parts_add_up():
 
 _SIZE = r"[+−]?\d[\d\u2009]*(?:\.\d+)?"
 _WITHIN = re.compile(
-    rf"({_SIZE}) ± ({_SIZE})(?: kW| %)?(?: more| less)?(?: vs. reference)?(?: than [^,]*,|:| \() ?(sure|likely|unclear)"
+    rf"({_SIZE}) ± ({_SIZE})(?: kW| %)?(?: more| less)?(?: vs\. [^:,]*)?(?: than [^,]*,|:| \() ?(sure|likely|unclear)"
 )
 _BETWEEN = re.compile(rf"({_SIZE}) %? ?\(({_SIZE})(?:…| to )({_SIZE})")
 _COLOURED = ("gain", "loss", "good", "bad")
