@@ -249,7 +249,7 @@ def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units
     return Chart(
         "Mass that pays",
         Axis("range of tip twist in flight [°]", (0.0, x_most)),
-        Axis("mass of all blades [kg]", y_range, log=True),
+        Axis("mass on board [kg]", y_range, log=True),
         tuple(series),
         note="Line and grey band: the actuator as set, with another range and mass but the same stiffness and "
         "drive. Points: real actuators on this blade.",
