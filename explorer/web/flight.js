@@ -249,7 +249,7 @@
       <circle data-supposed data-kind="${kind}" cx="${spot[0]}" cy="${spot[1]}"
         r="10" tabindex="0" role="slider" aria-label="Supposed actuator" aria-valuenow="${twist}"
         aria-valuetext="${text(words)}">
-        <title>Drag: range of twist and mass of all blades</title></circle>`;
+        <title>Drag: range of twist and mass on board</title></circle>`;
     earns.place = place;
     if (focused) svg.querySelector('[data-supposed]').focus({preventScroll: true});
   }
