@@ -88,10 +88,11 @@
     drawButton();
     card.querySelector('input').max = last();
     write(card.querySelector('.rxf-fly-bar > div'), flight.legs.map(([name, words], k) => `
-      <button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}">
-        <b>${text(name)}</b><small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></button>
-      <label style="left:${100 * k / last()}%"><input type="number" min="0" max="99" step="0.05" inputmode="decimal"
-        data-hours="${k}" aria-label="Hours of ${text(name)} in the mission"> h</label>`).join(''));
+      <div style="left:${100 * k / last()}%"><button data-fly="${k}" title="Fly ${text(name)}: ${text(words)}">
+        <b>${text(name)}</b></button>
+        <label><input type="number" min="0" max="99" step="0.05" inputmode="decimal" data-hours="${k}"
+          aria-label="Hours of ${text(name)} in the mission"> h</label>
+        <small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></div>`).join(''));
     showHours(flight);
     outdate(card, flight.kind !== 'ready');
     card.dataset.kind = flight.kind;
@@ -111,7 +112,7 @@
   }
   // Fields of the flight bar, and of the Schedule section where a rotor has no flight bar.
   addEventListener('change', ({target}) => {
-    const leg = /** @type {HTMLInputElement} */ (target).dataset.hours, {value} = /** @type {HTMLInputElement} */ (target);
+    const field = /** @type {HTMLInputElement} */ (target), leg = field.dataset.hours, {value} = field;
     if (leg && value !== '') RX.send('hours', [Number(leg), clamp(Number(value), 0, 99)]);
   });
   card.addEventListener('focusout', ({target}) => {
@@ -140,7 +141,7 @@
     if (!flight || !slider || !scale) return;
     if (document.activeElement !== slider || Math.abs(Number(slider.value) - at) > 0.011) slider.value = at;
     slider.style.setProperty('--at', `${100 * at / last()}%`);
-    card.querySelectorAll('.rxf-fly-bar > div > button')
+    card.querySelectorAll('.rxf-fly-bar > div button')
       .forEach((leg, k) => leg.toggleAttribute('data-here', Math.abs(k - at) < .02));
     const {X, Y, height} = scale, x = X(at).toFixed(1), {series} = flight.chart;
     let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, {tip} = flight;
