@@ -296,6 +296,7 @@ _CHIPS = {
     FlowRegion.IDLE: "back",
     FlowRegion.ATTACHED: "good",
     FlowRegion.SEPARATED: "bad",
+    FlowRegion.PAST_STATIC: "back",
     FlowRegion.REVERSE: "back",
     FlowRegion.DIVERGED: "bad",
 }

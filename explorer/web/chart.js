@@ -35,10 +35,17 @@ const Charts = (() => {
     const x = axis(chart.x, left, width - right), y = axis(chart.y, base, top);
     return {X: x.to, Y: y.to, atX: x.back, atY: y.back, left, right: width - right, top, base, width, height};
   }
-  const rows = ({y: {ticks}}, {Y, left, right}) => ticks.map(([value, word], k) => `
+  // In a low chart the words of inner rows are left out where they would touch.
+  const LINE = 12;  // [px]
+  function rows({y: {ticks}}, {Y, left, right}) {
+    const tight = ticks.length > 2 && Math.abs(Y(ticks[1][0]) - Y(ticks[0][0])) < LINE;
+    return ticks.map(([value, word], k) => {
+      const told = tight && k > 0 && k < ticks.length - 1 ? '' : text(word);
+      return `
     <path d="M${left} ${Y(value).toFixed(1)}H${right}" stroke="var(${value === 0 ? '--rx-faint' : '--rx-grid'})"/>
-    <text x="${left - 6}" y="${(Y(value) + 4).toFixed(1)}" text-anchor="end"${between(k, ticks)}>${text(word)}</text>`
-  ).join('');
+    <text x="${left - 6}" y="${(Y(value) + 4).toFixed(1)}" text-anchor="end"${between(k, ticks)}>${told}</text>`;
+    }).join('');
+  }
   // A short name stands left of the first number, a long one in the middle below, between ends if only these are told.
   const long = ({x}) => (x.label ?? '').length > 5, lower = chart => long(chart) && !chart.x.ends;
   function axes(chart, place) {

@@ -308,6 +308,17 @@ class TestDrawing:
         assert "reverse flow" in panel
         assert "retreating side" in panel
 
+    def test_every_region_of_the_disk_has_its_words(self, fast: Solution):
+        """A section past the static angle, attached, had none, and the drawer stood still."""
+        sections = [
+            probe(fast, float(r), float(psi)) for r in fast.disk.r for psi in fast.disk.psi[::4]
+        ]
+        regions = {p.region for p in sections}
+        assert {FlowRegion.ATTACHED, FlowRegion.PAST_STATIC, FlowRegion.REVERSE} <= regions
+        for region in regions:
+            first = next(p for p in sections if p.region is region)
+            assert f">{region.value}<" in probe_panel(first, fast)
+
     def test_the_point_lies_on_the_lift_curve(self, steady: Solution):
         """At a station exactly; between two as near as the stations are."""
         disk = steady.disk
