@@ -19,6 +19,7 @@ from explorer.model.actuator_inputs import (
     ActuatorInputs,
     HandSettings,
     inputs_from_spec,
+    mission_over,
 )
 from explorer.model.inputs import Inputs, ViewState
 from explorer.model.session_state import PinResult
@@ -39,6 +40,7 @@ from explorer.views.drawers import DETAILS, TRUST
 from explorer.views.flight import BY_HAND, FLIGHT
 from explorer.views.inset import INSET
 from explorer.views.line import LINE
+from explorer.views.mission import MISSION
 from explorer.views.notice import NOTICE, PROMPT
 from explorer.views.page_state import (
     Effect,
@@ -77,7 +79,7 @@ from rotor.support.markup import tag
 from rotor.support.processes import Processes
 from rotor.support.user_input import brief
 
-_ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL
+_ACTUATE = ACTUATOR, ACTUATOR_CARD, FLIGHT, PAY, DIAL, MISSION
 AT_ONCE = BAR, PROMPT
 """Panels that follow a press before the update that it wakes."""
 _NUMBER = LINE, POWER, HAND
@@ -164,17 +166,22 @@ class Page:
             with tasks["Map"]:
                 power_map = MapPanel(context, self.optimise)
             with tasks["Schedule"]:
-                schedule = SchedulePanel(context, self.optimise)
-        context.refreshing += [self.optimise.refresh, power_map.refresh, schedule.refresh]
+                self._schedule = SchedulePanel(context, self.optimise)
+        context.refreshing += [
+            self.optimise.refresh,
+            power_map.refresh,
+            self._schedule.refresh,
+        ]
         with context.layout.modes["actuate"]:
             self.actuator = ActuatorPanel(context, address)
+        self.optimise.mission = lambda design: mission_over(design, self.actuator.inputs().hours)
         self._curve = TwistCurveEditor(context, self._blade_grabbed)
 
     def _add_drawers(self, address: Address, facts: PageFacts) -> None:
         """What stands on the left, and the panels."""
         context, start = self.context, self.latest.inputs
         layout, gui = context.layout, context.gui
-        texts = {**drawer_texts(context), **self.actuator.texts}
+        texts = {**drawer_texts(context), **self.actuator.texts, **self._schedule.texts}
         with layout.drawers["probe"]:
             probe = ProbePanel(context, self.scene)
         with layout.drawers["open"]:
@@ -383,6 +390,7 @@ class Page:
                 )
                 self.panel_updater.memory = self.panel_updater.memory.then(state, last)
                 self.file.follow(state)
+                self.actuator.write_hours()
             case "number":
                 self._learn()
                 follow(_NUMBER.__contains__)
@@ -512,8 +520,8 @@ class Page:
                 self.actuator.perform(effect)
 
     def _carry(self, actuator: ActuatorInputs) -> None:
-        """A link or a file has an actuator on board: show it."""
-        self._set_actuator(actuator)
+        """A link or a file has an actuator on board: show it. The hours of the mission are no part of it, and stay."""
+        self._set_actuator(replace(actuator, hours=self.actuator.inputs().hours))
         self.context.layout.show_mode("actuate")
 
     def _set_actuator(self, actuator: ActuatorInputs) -> None:

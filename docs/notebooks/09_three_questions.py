@@ -17,9 +17,10 @@ was varied alone, its size did not.
 more than one linear twist that follows speed. One good fixed twist saves 0.3 to 0.4 % against −16°.
 
 **Which actuator pays?** None that changes steady twist: none of 24 combinations of actuator and twist law saves
-power, and none keeps all its limits. Added to the blade as built, in the mean of hover and µ 0.3, MFC P1 costs
-18 ± 5 kW and the best, AFC, 8.9 ± 1.7 kW. Against the best fixed twist the best costs 23 ± 9 kW: 15 kW for the twist
-of the blade as built, 9 kW for its mass. All are likely, from estimated data. Unlimited twist would gain 3 kW.
+power, and none keeps all its limits. Added to the blade as built, over a mission of hover, climb, cruise and fast
+flight whose hours are assumed, MFC P1 costs 14 ± 3 kW and the best, AFC, 7.3 ± 1.1 kW. Against the best fixed twist
+the best costs 22 ± 6 kW: 15 kW for the twist of the blade as built, 8 kW for its mass.
+All are likely, from estimated data. Unlimited twist would gain 3 kW.
 
 For the uncertainty of each number, see :doc:`uncertainty </guide/doubt>`. A difference between two twists is known
 better than power itself, although inflow models disagree about it.

@@ -42,8 +42,11 @@ def doubt_rows(band: Doubt, units: Units = SI, models: Sequence[OtherModels] = (
         if size >= _LEAST_PART * longest
     ]
     words = f"Other models: {'; '.join(_in_words(each, band, units) for each in models)}."
-    if any(abs(each.power - band.power) > band.band for each in models):
-        words += " At least one lies outside the band."
+    outside = sum(abs(each.power - band.power) > band.band for each in models)
+    if outside == 1:
+        words += " One lies outside the band."
+    elif outside:
+        words += f" {outside} lie outside the band."
     with_others = tag("div.rx-dim", words) if models else Markup()
     held = tag("div.rx-dim", f"{coverage_words()}.") if band.of == "Power" else Markup()
     return tag(

@@ -16,7 +16,7 @@ from explorer.colours import BASELINE, IDEAL
 from explorer.export.contents import DesignReport, ReportEntry, colours_of, fields_of
 from explorer.model.units import Units
 from explorer.picture.fields import Field
-from explorer.text.readout import balance, change_kind, fuel_words, mass_words, needs, pair_words
+from explorer.text.readout import balance, change_kind, fuel_words, mass_words, mission_words, needs
 from explorer.workers.call import at_once
 from rotor import Solution
 from rotor.actuator import Verdict, verdict_details
@@ -246,7 +246,7 @@ def actuator_section(verdict: Verdict | str, units: Units) -> Markup:
     placement, first = verdict.installed.placement, verdict.installed.actuator.name
     low, high = placement.span
     where = f"{verdict.installed.count}, {verdict.installed.host.label}, {low:.2f}–{high:.2f} R"
-    unit = tag("span.dim", f"{units.power[0].symbol}, {pair_words(verdict)}")
+    unit = tag("span.dim", f"{units.power[0].symbol}, {mission_words(verdict.baseline.mission)}")
     word = None if verdict.net_band is None else sureness(verdict.net_saving, verdict.net_band)
     kind = change_kind(-verdict.net_saving, word)
     cares = [*(limit.sentence for limit in verdict.broken), *verdict.caveats]

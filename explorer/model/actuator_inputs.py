@@ -3,6 +3,7 @@
 Per cent, degrees and volts end here.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from itertools import chain, pairwise
@@ -15,13 +16,14 @@ from explorer.model.units import number
 from explorer.workers.call import Call
 from rotor import Design, Rotor
 from rotor.actuator.catalogue import actuators, find_actuator
-from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
+from rotor.actuator.flight import ActuatorFlight, fly
 from rotor.actuator.installation import InstalledActuator, carrying_driven, install, read_actuator
-from rotor.actuator.optimum import SMOOTH_DIVISIONS, ConditionPair, divisions_of
+from rotor.actuator.optimum import SMOOTH_DIVISIONS, divisions_of
 from rotor.actuator.section import BladeKind, HostBlade, Placement, default_placement
 from rotor.actuator.verdict import Against, Verdict, judge
 from rotor.dynamics.structure import KNOWN_BLADE
-from rotor.optimisation import find_concept
+from rotor.optimisation import FlightLeg, Mission, find_concept, standard_flight
+from rotor.optimisation.mission import ASSUMED_HOURS
 from rotor.support.arrays import Array
 from rotor.support.bytes_cache import bytes_cache
 
@@ -51,7 +53,8 @@ class ActuatorInputs:
     """GJ of a new blade over that of the existing one."""
     concept: str = "linear"
     against: Against = "same-blade"
-    advance_ratios: tuple[float, float] = (0.0, 0.3)
+    hours: tuple[float, ...] = ASSUMED_HOURS
+    """Flight time of each leg of the standard flight [h]; a leg of no hours is no part of the mission."""
     drives: tuple[float, ...] = AT_REST
     """Per cent of the positive or of the negative voltage, segments from the root; none below `least_drive`."""
     crossed: bool = False
@@ -183,7 +186,7 @@ class HandSettings:
 class VerdictInputs:
     """All that a verdict depends on."""
 
-    pair: ConditionPair
+    mission: Mission
     concept: str
     actuator: str
     placement: Placement
@@ -192,10 +195,50 @@ class VerdictInputs:
 
 
 def verdict_inputs_of(inputs: ActuatorInputs, design: Design) -> VerdictInputs:
-    """What the tab asks about a design; ValueError for a pair of equal conditions."""
-    start = replace(design.condition, advance_ratio=inputs.advance_ratios[0], climb_speed=0.0)
-    pair = ConditionPair(replace(design, condition=start, active_twist=None), inputs.advance_ratios)
-    return VerdictInputs(pair, inputs.concept, inputs.actuator, *inputs.mounting, inputs.against)
+    """What the tab asks about a design."""
+    mission = mission_over(replace(design, active_twist=None), inputs.hours)
+    return VerdictInputs(mission, inputs.concept, inputs.actuator, *inputs.mounting, inputs.against)
+
+
+def mission_over(design: Design, hours: Sequence[float]) -> Mission:
+    """The mission that the flight bar shows, of a design wherever it flies now; ValueError with less than two legs."""
+    flown = tuple(leg for leg in standard_flight(design, hours) if leg.hours > 0.0)
+    return Mission(flown[0].of(design), flown)
+
+
+LONGEST = 99.0
+"""Most hours of a leg."""
+_DIGITS = 2
+_LEAST_LEGS = 2
+
+
+def hours_with(hours: Sequence[float], leg: int, flown: float) -> tuple[float, ...]:
+    """The hours of a mission with another time of one leg; as they were where less than two legs would be left."""
+    changed = list(hours)
+    changed[leg] = round(min(max(flown, 0.0), LONGEST), _DIGITS)
+    if sum(time > 0.0 for time in changed) < _LEAST_LEGS:
+        return tuple(hours)
+    return tuple(changed)
+
+
+def read_hours(text: str) -> tuple[float, ...]:
+    """The hours of a link; ValueError with one sentence for anything else."""
+    try:
+        hours = tuple(float(part) for part in text.split(","))
+    except ValueError:
+        hours = ()
+    good = len(hours) == len(ASSUMED_HOURS) and all(0.0 <= time <= LONGEST for time in hours)
+    if not good or sum(time > 0.0 for time in hours) < _LEAST_LEGS:
+        wanted = hours_text(ASSUMED_HOURS)
+        raise ValueError(
+            f"The mission {text[:40]!r} is not the hours of {len(ASSUMED_HOURS)} legs: write {wanted}."
+        )
+    return hours
+
+
+def hours_text(hours: Sequence[float]) -> str:
+    """The hours as in a link, for example `0.5,0.25,1,0.25`."""
+    return ",".join(f"{time:g}" for time in hours)
 
 
 @lru_cache(maxsize=16)
@@ -216,7 +259,7 @@ def verdict_on(question: VerdictInputs) -> Verdict:
     actuator, concept = find_actuator(question.actuator), find_concept(question.concept)
     return judge(
         actuator,
-        question.pair,
+        question.mission,
         concept,
         question.placement,
         question.host,
@@ -228,8 +271,8 @@ def lean_verdict(question: VerdictInputs) -> Verdict:
     """A verdict, its trims left behind: a twentieth of its size."""
     verdict = verdict_on(question)
     base = verdict.baseline
-    first, second = (replace(best, solutions=()) for best in base.best)
-    base = replace(base, best=(first, second), fixed=replace(base.fixed, solutions=()))
+    best = tuple(replace(optimum, solutions=()) for optimum in base.best)
+    base = replace(base, best=best, fixed=replace(base.fixed, solutions=()))
     resting, optimum = (
         replace(twists, solutions=()) for twists in (verdict.resting, verdict.optimum)
     )
@@ -282,7 +325,7 @@ def schedule_at(flight: ActuatorFlight, installed: InstalledActuator, leg: float
 
 
 def flight_of(verdict: Verdict) -> ActuatorFlight:
-    return fly(verdict, flight_legs(verdict.baseline.pair.design))
+    return fly(verdict, flight_legs(verdict.baseline.mission.design))
 
 
 @bytes_cache

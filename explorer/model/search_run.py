@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from explorer.workers.background import WorkRecord
@@ -11,58 +11,17 @@ from rotor import Design, Limits, Optimum
 from rotor.optimisation import (
     CONCEPTS,
     Concept,
+    Mission,
     Objective,
     Progress,
     Search,
-    WeightedCondition,
     at_condition,
     even_change_limit,
     find_concept,
     hover_and_cruise,
 )
 from rotor.optimisation.concepts import AIRFOIL_BREAKS, DIVISION
-from rotor.support.user_input import shorten
 from rotor.trim.doubt import Doubt
-
-MISSION = "0:0.5, 0.1:0.5, 0.15:0.5, 0.2:1, 0.25:1, 0.3:0.5"
-"""Advance ratio and hours of each leg."""
-MOST_LEGS = 12
-_FASTEST, _LONGEST = 0.45, 99.0
-
-
-def mission_of(text: str) -> tuple[tuple[float, float], ...]:
-    """Advance ratio and hours of the legs in order of speed; ValueError with one sentence for what is no mission.
-
-    Legs are apart by a comma or a new line; hours that are left out are 1.
-    """
-    parts = [part.strip() for part in text.replace("\n", ",").split(",") if part.strip()]
-    if len(parts) > MOST_LEGS:
-        raise ValueError(f"The mission has {len(parts)} legs: give at most {MOST_LEGS}.")
-    flown = sorted(_leg(part) for part in parts)
-    if not any(hours for _, hours in flown):
-        raise ValueError("The mission has no hours: give at least one leg, such as 0.2:1.")
-    return tuple(leg for leg in flown if leg[1])
-
-
-def _leg(text: str) -> tuple[float, float]:
-    speed, _, flown = text.partition(":")
-    try:
-        mu, hours = float(speed), float(flown or 1.0)
-    except ValueError:
-        mu = hours = math.nan
-    if not (0.0 <= mu <= _FASTEST and 0.0 <= hours <= _LONGEST):
-        wanted = f"advance ratio 0 to {_FASTEST:g} and hours 0 to {_LONGEST:g}, such as 0.2:1"
-        raise ValueError(f"The mission has {shorten(text, 30)!r}: write each leg as {wanted}.")
-    return mu, hours
-
-
-def legs(design: Design, mission: str = MISSION) -> tuple[WeightedCondition, ...]:
-    """The legs at the design's weight and altitude; ValueError as in `mission_of`."""
-    return tuple(
-        WeightedCondition(replace(design.condition, advance_ratio=mu), hours)
-        for mu, hours in mission_of(mission)
-    )
-
 
 OBJECTIVES = {
     "total": "Total power",
@@ -112,12 +71,10 @@ class SearchRequest:
             return find_concept(self.concept, breaks)
         return CONCEPTS[self.concept]
 
-    def wanted(
-        self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]
-    ) -> Objective:
+    def wanted(self, design: Design, mission: Callable[[Design], Mission]) -> Objective:
         """The objective; ValueError with one sentence where the design cannot have it."""
         if self.objective == "mission":
-            return Objective("total", legs(design))
+            return Objective("total", mission(design).conditions)
         if self.objective == "hover-cruise":
             cruise = design.condition.advance_ratio
             if cruise == 0.0:
@@ -125,15 +82,15 @@ class SearchRequest:
             return hover_and_cruise(design, self.hover_share / 100.0, cruise)
         return at_condition(design, "induced" if self.objective == "induced" else "total")
 
-    def search(
-        self, design: Design, legs: Callable[[Design], tuple[WeightedCondition, ...]]
-    ) -> Search:
+    def search(self, design: Design, mission: Callable[[Design], Mission]) -> Search:
         """The search; ValueError with one sentence where it makes no sense."""
         if self.index is not None and not design.models.bending:
             raise ValueError(
                 "A limit on vibration needs blades that bend: switch Blade bending on, under Model."
             )
-        return Search(design, self.known_concept(), self.wanted(design, legs), self.limits(design))
+        return Search(
+            design, self.known_concept(), self.wanted(design, mission), self.limits(design)
+        )
 
     def limits(self, design: Design) -> Limits:
         """The limits; change is counted from the design's own twist."""

@@ -71,11 +71,13 @@ class DialMatrix(DialNumbers):
 class FlightPart:
     """Tip twist from hover to fast flight, and where the design flies: `at`, counted in legs from 0.
 
-    `legs`: name and condition of each. `state`: of the actuator; `states`: all, with what they are called. `words`: how
-    it flies there. `tip`: the twist of that state.
+    `legs`: name and condition of each. `hours`: of each in the mission; `assumed`: whether nobody set them. `state`: of
+    the actuator; `states`: all, with what they are called. `words`: how it flies there. `tip`: the twist of that state.
     """
 
     legs: tuple[tuple[str, str], ...]
+    hours: tuple[float, ...]
+    assumed: bool
     at: float
     kind: Kind
     words: str

@@ -72,6 +72,10 @@ class KnotPress(_Fields):
     change: Literal["start", "end", "undo"] | KnotMove
 
 
+_Hours = tuple[_Index, Annotated[float, Meta(ge=0.0, le=99.0)]]
+"""A leg of the mission, and its flight time [h]."""
+
+
 class WavePress(_Fields):
     per_rev: _Index
     amplitude: _Amplitude
@@ -121,6 +125,7 @@ PRESSES: dict[str, Any] = {
     "slide": SlidePress,
     "azimuth": _Azimuth,
     "fly": Annotated[float, Meta(ge=0.0, le=100.0)],
+    "hours": _Hours,
     "kind": _Label,
     "against": Literal["same-blade", "best-fixed"],
     "state": Literal["set", "schedule", "stopped"],

@@ -38,8 +38,8 @@ def to_plane(r: Array, psi: Array) -> Array:
 
 
 def reverse_flow_segments(solution: Solution) -> Array:
-    """r = −µ sin ψ outside the root cut-out, with µ along the disk; shape (n, 2, 2), in radii."""
-    mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
+    """The circle of reverse flow r = −µ sin ψ outside the root cut-out, with µ along the disk; (n, 2, 2), in radii."""
+    mu = _advance_ratio_along_disk(solution)
     if mu <= 0.0:
         return np.zeros((0, 2, 2))
     psi = np.linspace(math.pi, 2.0 * math.pi, 181)
@@ -56,8 +56,8 @@ def separated_segments(solution: Solution) -> Array:
     That is the stall angle, or with dynamic stall the separation point of static stall.
     """
     grid = polar_grid(solution.disk, *_OUTLINED)
-    left = RefinedFlow(solution, grid).attached
-    return _outside_reverse_flow(contour(grid, left.astype(np.float64), 0.0), solution, 0.0)
+    margin = RefinedFlow(solution, grid).attached
+    return _outside_reverse_flow(contour(grid, margin.astype(np.float64), 0.0), solution, 0.0)
 
 
 def past_static_segments(solution: Solution) -> Array:
@@ -73,7 +73,7 @@ def past_static_segments(solution: Solution) -> Array:
 
 
 def drag_divergence_segments(solution: Solution) -> Array:
-    """Where drag diverges, the reverse-flow region left out; shape (n, 2, 2), in radii."""
+    """The edge of drag divergence, reverse flow left out; (n, 2, 2), in radii."""
     disk = solution.disk
     grid = polar_grid(disk, *_OUTLINED)
     slope = divergence_margin(DrawnSolution(solution), grid).astype(np.float64)
@@ -83,11 +83,19 @@ def drag_divergence_segments(solution: Solution) -> Array:
 
 def _outside_reverse_flow(segments: Array, solution: Solution, elements: float) -> Array:
     """Segments that are some elements' widths clear of the reverse-flow circle."""
+    mu = _advance_ratio_along_disk(solution)
+    if mu <= 0.0:
+        return segments
     middle = segments.mean(axis=1)
-    mu = solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
-    r, psi = np.hypot(*middle.T), np.arctan2(middle[:, 1], middle[:, 0])
+    r = np.hypot(*middle.T)
+    psi = np.arctan2(middle[:, 1], middle[:, 0])
     clearance = elements * np.interp(r, solution.disk.r, solution.disk.dr)
-    return segments[r + mu * np.sin(psi) > clearance] if mu > 0.0 else segments
+    return segments[r + mu * np.sin(psi) > clearance]
+
+
+def _advance_ratio_along_disk(solution: Solution) -> float:
+    """µ of the velocity along the disk, which its tilt makes smaller."""
+    return solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt)
 
 
 def contour(grid: PolarGrid, values: Array, level: float) -> Array:
@@ -139,13 +147,20 @@ def joined_lines(segments: Array) -> list[Array]:
         line = [segments[first][0], segments[first][1]]
         for forward in (True, False):
             end = keys[first][1 if forward else 0]
-            while (k := next((k for k in at[end] if k in left), None)) is not None:
-                left.discard(k)
-                ahead = 1 if keys[k][0] == end else 0
-                end = keys[k][ahead]
-                line.insert(len(line) if forward else 0, segments[k][ahead])
+            joined = _first_left(at[end], left)
+            while joined is not None:
+                left.discard(joined)
+                ahead = 1 if keys[joined][0] == end else 0
+                end = keys[joined][ahead]
+                line.insert(len(line) if forward else 0, segments[joined][ahead])
+                joined = _first_left(at[end], left)
         lines.append(np.array(line))
     return lines
+
+
+def _first_left(candidates: list[int], left: set[int]) -> int | None:
+    """The first of the segments at an end that is in no line yet; None where there is none."""
+    return next((k for k in candidates if k in left), None)
 
 
 _RADII, _AZIMUTHS = 40, 120
@@ -196,11 +211,20 @@ def plan(
     at_rest: bool,
     pinned: Solution | None = None,
 ) -> PlanPart:
-    """What the page's plan of the disk is drawn from.
+    """The page's plan of the disk, with outlines of A where it is pinned.
 
-    Values under the pointer only when `at_rest`, and outlines of A where there is one.
+    It has the values under the pointer only when `at_rest`.
     """
-    grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
+    airspeed = solution.design.airspeed
+    values = before = coloured = wiped = None
+    if at_rest:
+        grid = polar_grid(solution.disk, _RADII, _AZIMUTHS)
+        values = _values(solution)
+        coloured = packed(field.sample(DrawnSolution(solution), grid))
+        if pinned is not None:
+            before = _values(pinned)
+    if view.wipe and pinned is not None:
+        wiped = _disk(pinned, field, colour_range)
     return PlanPart(
         disk=_disk(solution, field, colour_range),
         root=round(solution.design.rotor.blade.root_cutout, 4),
@@ -209,21 +233,18 @@ def plan(
         unit=field.unit,
         regions=_regions(solution, view, pinned),
         sides=sides(solution.design),
-        flight=UNITS[view.units].speed[0].text(solution.design.airspeed)
-        if solution.design.airspeed
-        else "",
+        flight=UNITS[view.units].speed[0].text(airspeed) if airspeed else "",
         around=drawn_chart(around_chart(solution)),
-        mu=round(
-            solution.design.condition.advance_ratio * math.cos(solution.controls.shaft_tilt), 4
-        ),
-        values=_values(solution) if at_rest else None,
-        before=_values(pinned) if at_rest and pinned is not None else None,
-        coloured=packed(field.sample(DrawnSolution(solution), grid)) if at_rest else None,
-        wiped=_disk(pinned, field, colour_range) if view.wipe and pinned is not None else None,
+        mu=round(_advance_ratio_along_disk(solution), 4),
+        values=values,
+        before=before,
+        coloured=coloured,
+        wiped=wiped,
     )
 
 
 def _disk(solution: Solution, field: Field, colour_range: tuple[float, float]) -> PlanDisk:
+    """The coloured disk of a field."""
     numbers = disk_numbers(solution, field, colour_range)
     radii, azimuths, *_ = numbers["grid"]
     values, flow, *_ = numbers["texts"]
@@ -246,6 +267,7 @@ def around_chart(solution: Solution) -> Chart:
 
 
 def _regions(solution: Solution, view: ViewState, pinned: Solution | None) -> list[PlanRegion]:
+    """The regions that are shown, those apart that neither the disk nor A has."""
     shown = list[PlanRegion]()
     for name, region in REGIONS.items():
         if not getattr(view, name):

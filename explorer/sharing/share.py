@@ -42,6 +42,8 @@ PINNED = "a"
 """Name of the design that is pinned beside it."""
 CARRIED = "actuator"
 """Name of the actuator on board in the address."""
+HOURS = "h"
+"""Name of the mission's hours in the address."""
 LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
 LONGEST_OWN = 8000

@@ -26,12 +26,13 @@ from explorer.story.steps import (
 from explorer.text.design_words import listed
 from explorer.text.readout import limit_words
 from rotor import Solution, doubt, make_design, solve, vibration_front
-from rotor.actuator import FlightLeg, fly, try_actuator
+from rotor.actuator import fly, try_actuator
 from rotor.actuator.verdict import Verdict
 from rotor.aero.inflow import INFLOW_MODELS
 from rotor.design import Harmonic
 from rotor.design.uncertain import uncertain_inputs
 from rotor.optimisation.doubt import difference_doubt
+from rotor.optimisation.mission import FlightLeg
 from rotor.optimisation.vibration import FrontPoint
 from rotor.trim.doubt import Doubt, sure_words, with_other_inflow
 from rotor.validation.thesis.ladder import RUNGS, TRIM, linear_optimum, moving_twist
@@ -100,7 +101,7 @@ def _hover_twist(step: LectureStep) -> StepFacts:
         | {"induced_saving": Number("percent", saving, band=within)}
         | _of("angle", elastic=float(np.degrees(np.mean(elastic[0] - elastic[-1]))))
         | _of(
-            "angle",
+            "rate",
             best=linear_optimum(_BUILT, 0.0, None).rate_deg,
             best_rigid=linear_optimum(rigid, 0.0, None).rate_deg,
         )
@@ -204,7 +205,7 @@ def _fast_twist(step: LectureStep) -> StepFacts:
     moves = sorted(abs(rate(trimmed) - rate(untrimmed)) for untrimmed, trimmed in pairs)
     numbers = (
         _named(step, a, b)
-        | _of("angle", trim_low=moves[0], trim_high=moves[-1])
+        | _of("rate", trim_low=moves[0], trim_high=moves[-1])
         | _said(without_drag=doubt(*without).saving_words)
     )
     facts = blades.facts(numbers, b.power.total / a.power.total - 1.0, chart)
@@ -248,7 +249,7 @@ def _two_segments(step: LectureStep) -> StepFacts:
         | _said(
             twist_inner=angle_words(inputs.two_inner), twist_outer=angle_words(inputs.two_outer)
         )
-        | _of("angle", flat_low=min(flat), flat_high=max(flat))
+        | _of("rate", flat_low=min(flat), flat_high=max(flat))
     )
     level = (0.0,) * len(changes)
     lines = ChartLine("A", "a", level), ChartLine("B", "b", changes)
@@ -283,7 +284,7 @@ def _fixed_or_moving(step: LectureStep) -> StepFacts:
     sure = difference_doubt((1.0 / len(stops),) * len(stops), moved, held)
     inside = sum(a <= fixed <= b for a, b in zip(low, high, strict=True))
     numbers = (
-        _of("angle", hover_best=rates[0], fast_best=rates[-1])
+        _of("rate", hover_best=rates[0], fast_best=rates[-1])
         | _of("mu", fast_mu=SPEEDS[-1])
         | _of("fine", gain_low=min(gains), gain_high=max(gains))
         | _said(saves="" if sure is None else sure.saving_words)
@@ -392,7 +393,7 @@ def _piezoelectric_ply(step: LectureStep) -> StepFacts:
         _said(limits=listed(over), actuator=installed.actuator.name)
         | _said(sure_here=_sureness(here), sure_gross=_sureness(gross), sure_cost=_sureness(costs))
         | _said(sure=_net_sureness(verdict))
-        | _of("mu", to_mu=verdict.baseline.pair.advance_ratios[1], mu=SPEEDS[start])
+        | _of("mu", mu=SPEEDS[start])
         | _said(
             reach_low=f"{number(reach[0], 1, sign=True)}°",
             reach_high=f"{number(reach[1], 1, sign=True)}°",

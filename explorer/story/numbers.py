@@ -12,13 +12,13 @@ from explorer.text.readout import digits_of
 from rotor.trim.doubt import rounded_pair
 
 Kind = Literal[
-    "power", "change", "percent", "fine", "signed", "angle", "mu", "mass", "count", "words"
+    "power", "change", "percent", "fine", "signed", "angle", "rate", "mu", "mass", "count", "words"
 ]
 
 
 @dataclass(frozen=True)
 class Number:
-    """A number of the text, in SI; angles in degrees, shares as parts of one."""
+    """A number of the text, in SI; angles in degrees, rates of twist in °/R, shares as parts of one."""
 
     kind: Kind
     value: float
@@ -40,6 +40,8 @@ class Number:
                 text = f"{number(100.0 * value, digits, sign=self.kind == 'signed')} %"
             case "angle":
                 text = f"{number(value, 1)}°"
+            case "rate":
+                text = f"{number(value, 1)}°/R"
             case "mu":
                 text = speed_words(value)
             case "mass":
@@ -128,4 +130,5 @@ class StepFacts:
 
 
 def words_of(numbers: Mapping[str, Number], units: Units) -> dict[str, str]:
+    """The numbers as they are written, by their names."""
     return {name: number.words(units) for name, number in numbers.items()}

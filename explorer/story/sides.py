@@ -26,6 +26,7 @@ def side_names(
 
 
 def _reverse_flow_name(inputs: Inputs) -> str:
+    """Whether a side is computed with reverse flow."""
     if inputs.reverse_flow:
         return "computed with reverse flow"
     return "computed without reverse flow"

@@ -15,7 +15,7 @@ from explorer.model.units import BLANK, SI, WATT, Unit, Units, adding, number
 from explorer.text.glossary import tip
 from rotor import Design, PowerBudget, Solution
 from rotor.actuator import InstalledActuator, Verdict
-from rotor.actuator.verdict import flight_text
+from rotor.optimisation import Mission
 from rotor.optimisation.ideal_bound import ideal_factor, not_bounded
 from rotor.support.markup import Content, Markup, tag
 from rotor.trim.doubt import ESTIMATED, MOST_OF_SMALL, Doubt, rounded_pair, sure_words, sureness
@@ -38,8 +38,12 @@ def part_titles(*designs: Design) -> dict[str, str]:
     That of the climb is among them where one of the designs climbs or descends.
     """
     tested = [design.condition.stand is not None for design in designs]
-    titles = {**PART_TITLES, "parasite": "Parasite, propulsive"} if any(tested) else PART_TITLES
-    titles = _ON_A_STAND if all(tested) else titles
+    if all(tested):
+        titles = _ON_A_STAND
+    elif any(tested):
+        titles = {**PART_TITLES, "parasite": "Parasite, propulsive"}
+    else:
+        titles = PART_TITLES
     if not any(design.vertical_speed for design in designs):
         return titles
     titles = {**titles, "climb": "Climb"}
@@ -67,7 +71,7 @@ def _panel(
     units: Units,
     band: Doubt | None,
 ) -> Markup:
-    """`words`: below the total, what it is and what it is compared with."""
+    """A total with its change, its table of parts and the ideal; `words`: what the total is, and against what."""
     power = solution.power
     total = units.power[0].text(power.total, fineness(power, units))
     return tag(
@@ -131,8 +135,10 @@ def change(power: PowerBudget, reference: PowerBudget | None, band: Doubt | None
 
 
 def change_kind(change: float, word: str | None) -> Literal["", "less", "more"]:
-    """What the colour of a change says: nothing unless its sign is sure or likely."""
-    return "" if word not in ("sure", "likely") else "less" if change < 0.0 else "more"
+    """The colour of a change: none unless its sign is sure or likely."""
+    if word not in ("sure", "likely"):
+        return ""
+    return "less" if change < 0.0 else "more"
 
 
 def part_change(
@@ -147,7 +153,8 @@ def part_change(
 
     Where the band is not known, and where nothing changes, with these digits and without the last two.
     """
-    change, unit = getattr(power, name) - getattr(reference, name), units.power[0]
+    change = getattr(power, name) - getattr(reference, name)
+    unit = units.power[0]
     bands = {} if band is None else {**band.part_bands, "total": band.change_band}
     within = bands.get(name)
     if not within or max(abs(unit.of(change)), unit.of(within)) < 0.05:
@@ -169,11 +176,12 @@ def total_words(total: float, units: Units = SI) -> str:
 
 
 def total_size(total: float, units: Units = SI) -> str:
-    """The same without its unit."""
+    """Total power [W] as in `total_words`, without its unit."""
     return number(units.power[0].of(total), _fineness(total, units))
 
 
 def _fineness(total: float, units: Units) -> int:
+    """Decimals of powers beside a total [W]."""
     return 1 if abs(total) < (200.0 if units.power[0] is WATT else 2e5) else 0
 
 
@@ -185,11 +193,12 @@ def _row(
     units: Units,
     band: Doubt | None,
 ) -> Markup:
+    """A part of power: its value, its share of the total, its change, and how sure that is."""
     value = getattr(power, name)
     share = 100.0 * value / power.total if power.total > 0.0 else None
-    apart, word = (
-        (BLANK, "") if reference is None else part_change(name, power, reference, band, units)
-    )
+    apart, word = BLANK, ""
+    if reference is not None:
+        apart, word = part_change(name, power, reference, band, units)
     return tag(
         "tr",
         tag("td", patch(PARTS[name]), title),
@@ -272,11 +281,12 @@ glossary."""
 
 
 def _elastic(solution: Solution, read: Callable[[ElasticTwist], float]) -> float | None:
+    """A number of the elastic twist; None for a blade that is rigid in torsion."""
     return float(read(solution.elastic)) if solution.elastic else None
 
 
 def _trim_rows(solution: Solution) -> list[tuple[str, _TrimRow]]:
-    """With the measure of efficiency that the flight has."""
+    """The trim quantities of a flight: in hover with the figure of merit, else with lift to drag."""
     other = "lift_to_drag" if solution.design.hovering else "figure_of_merit"
     return [(key, row) for key, row in TRIM_ROWS.items() if key != other]
 
@@ -314,6 +324,7 @@ def explanation(text: str) -> Markup:
 
 
 def dash(colour: str, dashed: bool = False) -> Markup:
+    """A short line as in the charts, before the name of what it draws."""
     if dashed:
         return tag("span.rx-dash.rx-dashed", style=f"color:{colour}")
     return tag("span.rx-dash", style=f"background:{colour}")
@@ -361,10 +372,8 @@ def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:
     for key, (_, short, digits, _, read) in _trim_rows(solution):
         if not short:
             continue
-        a, b = (
-            number(read(pinned) if pinned.converged else None, digits),
-            number(read(solution), digits),
-        )
+        a = number(read(pinned) if pinned.converged else None, digits)
+        b = number(read(solution), digits)
         cells.append(
             tag(
                 "div.rx-four",
@@ -379,11 +388,8 @@ def compared_trim_panel(solution: Solution, pinned: Solution) -> Markup:
 
 def _name(letter: str) -> Markup:
     """A or B with the mark of its lines in the charts."""
-    return (
-        dash(PINNED, dashed=True) + tag("b", letter)
-        if letter == "A"
-        else dash(THIS) + tag("b", letter)
-    )
+    mark = dash(PINNED, dashed=True) if letter == "A" else dash(THIS)
+    return mark + tag("b", letter)
 
 
 def _compared_row(
@@ -394,6 +400,7 @@ def _compared_row(
     units: Units,
     band: Doubt | None,
 ) -> Markup:
+    """A part of power, or the total, of A and of B, and the change."""
     b = units.power[0].of(getattr(power, part))
     a = None if reference is None else units.power[0].of(getattr(reference, part))
     changes = (BLANK, "") if reference is None else part_change(part, power, reference, band, units)
@@ -408,6 +415,7 @@ def _compared_row(
 
 
 def _cells(title: str, values: Iterable[str], kind: str = "", tooltip: str | None = None) -> Markup:
+    """A row of a table: a title and numbers."""
     return tag(
         "tr",
         tag("td", title),
@@ -427,7 +435,7 @@ def digits_of(power: float, units: Units, band: float | None = None) -> int:
 
 
 class BalanceRow(NamedTuple):
-    """What one part needs, or all do; more is positive."""
+    """The power that one part of an actuator adds, or all do; more is positive."""
 
     name: str
     value: float
@@ -448,28 +456,39 @@ def balance(
     bands: Sequence[float] = (),
     sourced: bool = True,
 ) -> list[BalanceRow]:
-    """What each part needs and what all do.
+    """The power that each part of an actuator adds, and all of them.
 
     savings, bands: as of `Verdict`. band: of their sum [W], with which its digits are those of `needs_words`.
     """
-    unit, digits = units.power[0], digits_of(sum(power for _, power in savings), units, band)
+    unit = units.power[0]
+    digits = digits_of(sum(power for _, power in savings), units, band)
+    names = [_BALANCE_NAMES.get(name, name) for name, _ in savings]
     exact = [-unit.of(power) for _, power in savings]
     written = adding(exact, digits)
-    names = [
-        {"gross": "its twist", "blade": "present blade"}.get(name, name) for name, _ in savings
-    ]
-    within = (*(bands or [0.0] * len(savings)), band or 0.0)
-    rows = zip(
-        (*names, "total"), (*exact, sum(exact)), (*written, sum(written)), within, strict=True
-    )
-    return [
-        BalanceRow(
-            name, value, number(shown, digits, sign=True), unit.of(sure),
-            _row_words(name, value, sure, units, sourced),
-            change_kind(value, sureness(value, unit.of(sure)) if value and (sure or name == "drive") else None),
-        )
-        for name, value, shown, sure in rows
-    ]  # fmt: skip
+    within = bands or [0.0] * len(savings)
+    rows = list[BalanceRow]()
+    for name, value, shown, sure in zip(names, exact, written, within, strict=True):
+        text = number(shown, digits, sign=True)
+        rows.append(_balance_row(name, value, text, sure, units, sourced))
+    total = number(sum(written), digits, sign=True)
+    rows.append(_balance_row("total", sum(exact), total, band or 0.0, units, sourced))
+    return rows
+
+
+_BALANCE_NAMES = {"gross": "its twist", "blade": "present blade"}
+"""Names on the page of parts of a net saving that have others in `Verdict`."""
+
+
+def _balance_row(
+    name: str, value: float, text: str, band: float, units: Units, sourced: bool
+) -> BalanceRow:
+    """One row from its value in the main unit, its text, and its band [W]."""
+    within = units.power[0].of(band)
+    word = None
+    if value and (band or name == "drive"):
+        word = sureness(value, within)
+    words = _row_words(name, value, band, units, sourced)
+    return BalanceRow(name, value, text, within, words, change_kind(value, word))
 
 
 def _row_words(name: str, value: float, band: float, units: Units, sourced: bool) -> str:
@@ -563,11 +582,19 @@ def fuel_words(verdict: Verdict) -> str:
     return banded(-saved, band, _FUEL, sign=True, sourced=verdict.sourced)
 
 
-def pair_words(verdict: Verdict) -> str:
-    """The two flight conditions of a verdict."""
-    first, second = verdict.baseline.pair.advance_ratios
-    return f"mean of {flight_text(first)} and {flight_text(second)}"
+def mission_words(mission: Mission) -> str:
+    """What a mean is taken over, for example `mean over hover, climb, cruise and fast (hours assumed)`."""
+    assumed = " (hours assumed)" if mission.assumed else ""
+    return f"mean over {mission.words}{assumed}"
+
+
+def mission_hours(mission: Mission) -> str:
+    """The legs with their hours, and whether these are assumed."""
+    legs = ", ".join(f"{leg.name} {leg.hours:g} h" for leg in mission.legs)
+    assumed = " (assumed)" if mission.assumed else ""
+    return f"Mission: {legs}{assumed}."
 
 
 def limit_words(name: str) -> str:
+    """The name of a limit of an actuator, in words."""
     return "minimum torsional stiffness" if name == "torsion-least" else name.replace("-", " ")

@@ -45,7 +45,7 @@ def status_panel(
         for text in cautions(solution, pinned, units)
     ]
     count = f"{solution.passes} iteration{'' if solution.passes == 1 else 's'}"
-    residual = f"Force residual < {tiny(solution.residual)} ", tag("i", "W"), f", {count}."
+    residual = f"Force residual < {tiny(solution.residual)} of the weight, {count}."
     text = tag("div", tag("span.rx-good", "●"), f" {solution.message} ", residual)
     sentence = units.in_power_unit(validated(solution).sentence)
     measured = tag("div.rx-small", sentence, data_explorer="measurement")

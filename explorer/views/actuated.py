@@ -27,7 +27,6 @@ from rotor import Design, Solution, solve
 from rotor.actuator import (
     ActuatorFlight,
     EffectInFlight,
-    FlightLeg,
     InstalledActuator,
     OtherStroke,
     Verdict,
@@ -39,6 +38,7 @@ from rotor.actuator.harmonic import bending, pitching_power
 from rotor.actuator.verdict import Against
 from rotor.design import TwistLaw
 from rotor.dynamics.structure import check_blade
+from rotor.optimisation import FlightLeg
 from rotor.trim.doubt import sureness
 
 

@@ -89,7 +89,6 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
             "plies": f"{actuator.noun[1].capitalize()}{' per side' if actuator.on_skin else ''}",
             "span": "Span {:.2f}–{:.2f}".format(*inputs.span),
             "chord": "Chord {:.2f}–{:.2f}".format(*inputs.chord),
-            "advance_ratios": "µ {:.2f} – {:.2f}".format(*inputs.advance_ratios),
         },
     )
 

@@ -7,7 +7,7 @@ from typing import Any
 from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
-from explorer.text.readout import kilograms, limit_words, mass_parts, needs_words, pair_words
+from explorer.text.readout import kilograms, limit_words, mass_parts, mission_words, needs_words
 from explorer.views.actuated import (
     ActuatedBlade,
     actuated_blade,
@@ -168,7 +168,7 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         mass=total,
         masses=tuple(parts),
         flight=forbidden or gives,
-        flights="" if one.verdict is None else f"{could}{pair_words(one.verdict)}",
+        flights="" if one.verdict is None else f"{could}{mission_words(one.question.mission)}",
         vibration=_vibration(one),
         problem=no_verdict(now),
         over=over,

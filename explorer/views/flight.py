@@ -13,7 +13,7 @@ import numpy as np
 from explorer.model.actuator_inputs import ActuatorState, HandSettings, schedule_at
 from explorer.model.units import Units, number
 from explorer.parts.actuate import EarnsPart, FlightPart, Kind, PowerBar, Sign
-from explorer.text.readout import balance, change_kind, fuel_words, pair_words
+from explorer.text.readout import balance, change_kind, fuel_words
 from explorer.views.actuated import (
     ActuatedBlade,
     actuated_blade,
@@ -31,8 +31,9 @@ from explorer.views.page_state import (
     Questions,
     SetHand,
 )
-from rotor.actuator import ActuatorFlight, FlightLeg, Verdict
+from rotor.actuator import ActuatorFlight, Verdict
 from rotor.actuator.stopped import numbers_of
+from rotor.optimisation import FlightLeg
 from rotor.support.chart import Axis, Band, Chart, Line, Series, drawn_chart
 from rotor.trim.doubt import sureness
 
@@ -119,6 +120,8 @@ def _flight(now: PageState, one: ActuatedBlade, wrong: str) -> FlightPart:
             (leg.name, _condition(leg, rotor.tip_speed, now.units))
             for leg in legs[::POINTS_PER_LEG]
         ),
+        hours=one.inputs.hours,
+        assumed=one.question.mission.assumed,
         at=round(position_of(legs, now.inputs.advance_ratio), 3),
         kind="ready" if known else "problem" if problem else "computing",
         words="; ".join(filter(None, (words, problem))),
@@ -201,13 +204,14 @@ def earns_state(verdict: Verdict | None, known: bool, units: Units, problem: str
     state = EarnsPart(kind, units.power[0].symbol)
     if verdict is None:
         return state
+    assumed = " (hours assumed)" if verdict.baseline.mission.assumed else ""
     saved, band = verdict.fuel_saving, verdict.fuel_band
     fuel = (
         change_kind(-saved, sureness(saved, band)) if saved is not None and band is not None else ""
     )
     return replace(
         state,
-        where=f"by schedule, {pair_words(verdict)}",
+        where=f"by schedule, mean of legs{assumed}",
         bars=_bars(
             verdict.savings,
             units,

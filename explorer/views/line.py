@@ -138,11 +138,11 @@ def _change(now: PageState) -> list[LinePiece]:
     # Twist that follows the azimuth takes an actuator.
     carried = solution.design.rotor.blade.carried is not None
     built = carried or solution.design.pitch_waves in ((), reference.design.pitch_waves)
-    note = "" if built else " (no actuator on board makes this)"
     other = reference.power.total
-    return change_pieces(
-        change, within, than, other, now.units, known=known, note=note, built=built
-    )
+    pieces = change_pieces(change, within, than, other, now.units, known=known, built=built)
+    if not built:
+        pieces.append(LinePiece("; no actuator on board makes this", "unbuilt"))
+    return pieces
 
 
 def line_text(now: PageState) -> str:

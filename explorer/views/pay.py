@@ -17,7 +17,14 @@ from explorer.model.units import SI, Units, number
 from explorer.parts.actuate import SupposePart
 from explorer.parts.presses import SupposePress
 from explorer.text.design_words import listed
-from explorer.text.readout import change_sizes, kilograms, limit_words, needs, needs_words
+from explorer.text.readout import (
+    change_sizes,
+    kilograms,
+    limit_words,
+    mission_words,
+    needs,
+    needs_words,
+)
 from explorer.views.actuated import (
     ActuatedBlade,
     PowerChange,
@@ -28,7 +35,6 @@ from explorer.views.actuated import (
 )
 from explorer.views.page_state import Effect, PageState, Panel, SetAddress, SetHand
 from rotor.actuator import OtherStroke, Verdict, actuators
-from rotor.actuator.verdict import flight_text
 from rotor.support.chart import Axis, Band, Chart, Line, Points, Series, drawn_chart
 from rotor.support.markup import Markup, tag
 from rotor.trim.doubt import rounded_pair, sure_words, sureness
@@ -71,8 +77,8 @@ def _kinds(one: ActuatedBlade, now: PageState) -> Markup:
     rows = [tag("tr.rx-dim", [tag("th", head) for head in heads])]
     for id in sorted(one.outcomes, key=list(actuators()).index):
         rows += _kind(one, id, now.units)
-    mission = " and ".join(map(flight_text, one.inputs.advance_ratios))
-    note = f"Power by schedule, mean of {mission}, against the {against_words(one, one.inputs.against)}."
+    mean = mission_words(one.question.mission)
+    note = f"Power by schedule, {mean}, against the {against_words(one, one.inputs.against)}."
     return tag(
         "div.rx.rxa-kinds", tag("table", rows), tag("p.rx-dim", note), press, data_explorer="kinds"
     )
@@ -243,7 +249,7 @@ def mass_chart(line: OtherStroke, verdicts: Sequence[Verdict] = (), units: Units
     return Chart(
         "Mass that pays",
         Axis("range of tip twist in flight [°]", (0.0, x_most)),
-        Axis("mass of all blades [kg]", y_range, log=True),
+        Axis("mass on board [kg]", y_range, log=True),
         tuple(series),
         note="Line and grey band: the actuator as set, with another range and mass but the same stiffness and "
         "drive. Points: real actuators on this blade.",

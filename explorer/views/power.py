@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
+from explorer.model.inputs import baseline_title
 from explorer.model.session_state import SessionState
 from explorer.model.units import Units, number
 from explorer.parts.results import HandPart, LineStatus, PowerPart, PowerShare
@@ -38,14 +39,17 @@ def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart
     solution, power = state.solution, state.solution.power
     reference = state.reference.power if state.reference.converged else None
     unit, digits = units.power[0], fineness(power, units)
+    against = "A"
+    if state.pinned is None:
+        against = baseline_title(solution.design, state.reference.design)
     whole = sum(max(getattr(power, name), 0.0) for name in part_titles(solution.design))
     parts = list[PowerShare]()
     for name, words in part_titles(solution.design).items():
         value = getattr(power, name)
         title = f"{words} power {units.watts(value, digits)}"
-        if reference is not None:
+        if reference is not None and solution.design != state.reference.design:
             change, word = part_change(name, power, reference, band, units)
-            title += f", {change} {unit.symbol} vs. reference{word and f': {word}'}"
+            title += f", {change} {unit.symbol} vs. {against}{word and f': {word}'}"
         share = round(value / whole, 5) if whole > 0.0 else 0.0
         parts.append(
             PowerShare(

@@ -13,7 +13,7 @@ from rotor.trim.stall_edge import AttachedRange, StallEdges, stall_edges
 
 
 def stall_edge_work(now: PageState) -> tuple[PanelWork, ...]:
-    """How far the edge of stall is: some twenty trims; none while sections do not stall."""
+    """The work that finds the edges of stall, some twenty trims; none while sections do not stall."""
     if now.state is None or now.problem or not now.state.solution.design.models.stall:
         return ()
     solution = now.state.solution
@@ -25,40 +25,59 @@ def stall_edge_work(now: PageState) -> tuple[PanelWork, ...]:
 
 
 def prices(now: PageState) -> dict[str, Any]:
-    """By region. The last ones known stand there as stale until those of the present design are."""
+    """The price of each region. Until those of the present design are known, the last ones stand there as stale."""
     if now.state is None:
         return {"prices": None}
-    solution = now.state.solution
-    models = solution.design.models
-    steps, current = switched_alone(now)
-    waits = ("Computing …",) if not steps and not current else ()
-    on = {"stall": models.stall, "reverse_flow": True}
-    shown = {
-        name: RegionPrice(
-            (_cost(steps[name], now.units, on[name]),) if name in steps else waits,
-            stale=not current,
-        )
-        for name in on
-    }
-    stall, asked = shown["stall"], stall_edge_work(now)
-    if models.stall and not solution.stalled_area:
-        stall = RegionPrice(())  # What is not there has no price.
-    if asked:
-        edges, of_now = now.latest(asked[0])
-        lines = () if edges is None else _edges(edges, now.units)
-        stall = replace(stall, lines=(*stall.lines, *lines), stale=stall.stale or not of_now)
+    models = now.state.solution.design.models
+    press = "Without stall" if models.stall else "With stall"
     return {
-        "prices": shown
-        | {"stall": replace(stall, press="Without stall" if models.stall else "With stall")}
+        "prices": {
+            "stall": replace(_stall_price(now), press=press),
+            "reverse_flow": _switch_price(now, "reverse_flow", on=True),
+        }
     }
+
+
+def _stall_price(now: PageState) -> RegionPrice:
+    """What separated flow costs, and where it begins or ends; without stall what stall would cost."""
+    assert now.state is not None
+    solution = now.state.solution
+    if not solution.design.models.stall:
+        return _switch_price(now, "stall", on=False)
+    price = _switch_price(now, "stall", on=True)
+    if not solution.stalled_area:
+        # What is not there has no price.
+        price = RegionPrice(())
+    works = stall_edge_work(now)
+    if not works:
+        return price
+    edges, of_now = now.latest(works[0])
+    lines = () if edges is None else _edges(edges, now.units)
+    return RegionPrice((*price.lines, *lines), stale=price.stale or not of_now)
+
+
+def _switch_price(now: PageState, switch: str, *, on: bool) -> RegionPrice:
+    """What an effect costs; `on`: whether the page has it."""
+    steps, current = switched_alone(now)
+    if switch in steps:
+        lines = (_cost(steps[switch], now.units, on),)
+    elif not steps and not current:
+        lines = ("Computing …",)
+    else:
+        lines = ()
+    return RegionPrice(lines, stale=not current)
 
 
 def _cost(step: WaterfallStep, units: Units, on: bool) -> str:
-    """From the trim without the effect and that with all; on: whether the page has the effect."""
+    """What an effect costs or saves, as `Costs 10.5 kW`; `on`: whether the page has it, else `Stall would cost 0.8 kW`.
+
+    The power is compared with that of the same flight without the effect.
+    """
     if step.note or step.added is None:
         return cost_words(step, units)
     does = "save" if step.added > 0.0 else "cost"
-    verb = f"{does.capitalize()}s" if on else f"Would {does}"
+    # Of the regions only stall can be off.
+    verb = f"{does.capitalize()}s" if on else f"Stall would {does}"
     size = units.watts(abs(step.added), 1)
     if size == units.watts(0.0, 1):
         size = f"less than {units.watts(0.1 * units.power[0].size, 1)}"
@@ -66,35 +85,43 @@ def _cost(step: WaterfallStep, units: Units, on: bool) -> str:
 
 
 def _edges(edges: StallEdges, units: Units) -> list[str]:
-    """Where separated flow begins, or ends, by each quantity alone."""
+    """Where separated flow begins, or ends, by each quantity alone: `Begins above µ 0.302`, `or with 0.06 t more`."""
+    verb = "Ends" if edges.separated else "Begins"
     ways = list[str]()
     if edges.mass_kg is not None:
         mass = units.mass.text(abs(edges.mass_kg), 2 if units.mass is TONNE else 0)
         ways.append(f"with {mass} {'less' if edges.mass_kg < 0.0 else 'more'}")
     if edges.twist_deg is not None:
-        ways.append(f"with twist {number(edges.twist_deg, 1, sign=True)}°/R")
-    verb = "Ends" if edges.separated else "Begins"
+        ways.append(f"with Δ twist {number(edges.twist_deg, 1, sign=True)}°/R")
     lines = _speeds(edges.mu, verb)
+    # Between two speeds without separated flow, "or" would say that the other ways lead to none either.
+    joins = bool(lines) and (edges.separated or not _has_both_ends(edges.mu))
     for way in ways:
-        lines.append(f"{'or' if lines else verb} {way}")
+        lines.append(f"or {way}" if joins else f"{verb} {way}")
+        joins = True
     return lines
 
 
 def _speeds(attached: AttachedRange, verb: str) -> list[str]:
-    """Between which advance ratios no flow is separated."""
-    low, high = (end if end is None else number(end, 3) for end in (attached.low, attached.high))
-    if low is not None and high is not None:
+    """Between which advance ratios no flow is separated; `verb`: what separated flow does at an end of them."""
+    low = "" if attached.low is None else number(attached.low, 3)
+    high = "" if attached.high is None else number(attached.high, 3)
+    if low and high:
         return [f"None from µ {low} to {high}"]
-    beyond, before = ("above", "below") if verb == "Ends" else ("below", "above")
-    if low is not None:
-        return [f"{verb} {beyond} µ {low}"]
-    if high is not None:
-        return [f"{verb} {before} µ {high}"]
+    ends = verb == "Ends"
+    if low:
+        return [f"{verb} {'above' if ends else 'below'} µ {low}"]
+    if high:
+        return [f"{verb} {'below' if ends else 'above'} µ {high}"]
     return []
 
 
+def _has_both_ends(attached: AttachedRange) -> bool:
+    return attached.low is not None and attached.high is not None
+
+
 def switch_stall(now: PageState, value: object) -> tuple[Effect, ...]:
-    """The disk with attached flow throughout, or as it is: a trim of its own."""
+    """The flight without stall, or with it again: a trim of its own."""
     del value
     return (MoveSliders(replace(now.inputs, stall=not now.inputs.stall), by_hand=False),)
 

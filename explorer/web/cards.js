@@ -121,6 +121,11 @@
     ['reverse_flow', 'Reverse flow', line('var(--rx-dim)')],
     ['drag_divergence', 'Drag divergence', line('var(--rx-ink)', '3 4')],
   ];
+  // The two regions of stall: which is which, in one place each.
+  const MEANT = {
+    stall: 'The flow is separated over 30 % of the chord or more',
+    past_static: 'The angle of attack is past the static stall angle, but the flow is still attached: separation lags',
+  };
   // What a region costs, where its edge is, and the press that switches it off.
   RX.price = name => {
     const {lines, stale, press} = RX.state.prices?.[name] ?? {lines: [], stale: false, press: ''};
@@ -145,11 +150,11 @@
     const shares = plan ? Object.fromEntries(plan.regions.map(({name, words}) => [name, words.split(' · ')[0]]))
       : field.shares;
     const key = (plan ? PLANNED : REGIONS).map(([name, title, swatch]) => {
-      const stall = name === 'stall', share = text(shares[name] ?? (plan && regions[name] ? 'none' : ''));
+      const share = text(shares[name] ?? (plan && regions[name] ? 'none' : ''));
       // Beside a plan labels have the shares; of what it has none of there is no label.
       const words = plan && name in shares ? `<span class="rxf-num">${share}</span>` : share;
       return `<button data-do="region" data-value="${name}" aria-pressed="${regions[name]}"
-        ${stall ? 'title="Part of the disk where the flow is separated over 30 % of the chord or more"' : ''}>
+        ${name in MEANT ? `title="${MEANT[name]}"` : ''}>
         <svg viewBox="0 0 20 11" aria-hidden="true">${swatch}</svg>${title} ${words}</button>`;
     });
     if (difference !== null) key.push(`

@@ -88,8 +88,12 @@
     drawButton();
     card.querySelector('input').max = last();
     write(card.querySelector('.rxf-fly-bar > div'), flight.legs.map(([name, words], k) => `
-      <button data-fly="${k}" style="left:${100 * k / last()}%" title="Fly ${text(name)}: ${text(words)}">
-        <b>${text(name)}</b><small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></button>`).join(''));
+      <div style="left:${100 * k / last()}%"><button data-fly="${k}" title="Fly ${text(name)}: ${text(words)}">
+        <b>${text(name)}</b></button>
+        <label><input type="number" min="0" max="99" step="0.05" inputmode="decimal" data-hours="${k}"
+          aria-label="Hours of ${text(name)} in the mission"> h</label>
+        <small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></div>`).join(''));
+    showHours(flight);
     outdate(card, flight.kind !== 'ready');
     card.dataset.kind = flight.kind;
     write(card.querySelector('[data-words]'),
@@ -97,6 +101,22 @@
     card.querySelector('[data-explorer=tip-twist]').textContent = flight.tip;
     draw(flight.chart);
     mark();
+  });
+  // The hours of the mission: what a hand writes stays until it leaves the field.
+  function showHours({hours, assumed}) {
+    card.querySelectorAll('[data-hours]').forEach((field, k) => {
+      if (document.activeElement !== field) field.value = hours[k];
+      field.title = assumed ? 'Hours of this leg in the mission: assumed' : 'Hours of this leg in the mission';
+      field.toggleAttribute('data-assumed', assumed);
+    });
+  }
+  // Fields of the flight bar, and of the Schedule section where a rotor has no flight bar.
+  addEventListener('change', ({target}) => {
+    const field = /** @type {HTMLInputElement} */ (target), leg = field.dataset.hours, {value} = field;
+    if (leg && value !== '') RX.send('hours', [Number(leg), clamp(Number(value), 0, 99)]);
+  });
+  card.addEventListener('focusout', ({target}) => {
+    if (target.dataset.hours) setTimeout(() => { if (RX.state.flight) showHours(RX.state.flight); }, 600);
   });
   // Names of the lines and areas. All words are written before the drawing, which has the height that they leave.
   function keys({state, words, chart, kind}) {
@@ -121,7 +141,7 @@
     if (!flight || !slider || !scale) return;
     if (document.activeElement !== slider || Math.abs(Number(slider.value) - at) > 0.011) slider.value = at;
     slider.style.setProperty('--at', `${100 * at / last()}%`);
-    card.querySelectorAll('.rxf-fly-bar > div > button')
+    card.querySelectorAll('.rxf-fly-bar > div button')
       .forEach((leg, k) => leg.toggleAttribute('data-here', Math.abs(k - at) < .02));
     const {X, Y, height} = scale, x = X(at).toFixed(1), {series} = flight.chart;
     let marker = `<path d="M${x} 2V${height}" class="rxf-fly-now"/>`, {tip} = flight;
@@ -233,7 +253,7 @@
       <circle data-supposed data-kind="${kind}" cx="${spot[0]}" cy="${spot[1]}"
         r="10" tabindex="0" role="slider" aria-label="Supposed actuator" aria-valuenow="${twist}"
         aria-valuetext="${text(words)}">
-        <title>Drag: range of twist and mass of all blades</title></circle>`;
+        <title>Drag: range of twist and mass on board</title></circle>`;
     earns.place = place;
     if (focused) svg.querySelector('[data-supposed]').focus({preventScroll: true});
   }

@@ -31,7 +31,7 @@ from explorer.picture.picture import (
 )
 from explorer.scene.controller import TURN_RATE, SceneController
 from explorer.text.glossary import hint
-from explorer.text.readout import outdated
+from explorer.text.readout import answers, outdated
 from explorer.widgets.context import Player, TabContext
 from explorer.widgets.layout import COARSE, by_hand
 from rotor import Rotor, Solution
@@ -271,7 +271,7 @@ class ProbePanel:
             return
         self._drawn = solution, place, pitch
         self._html = probe_panel(here, solution, place.opened, self._measured(solution, here))
-        self._panel.content = self._html
+        self._panel.content = answers(self._html)
         with self._context.client.atomic():
             if place.shown:
                 bent = drawn_bending(solution, [here.r], math.radians(state.view.azimuth_deg))

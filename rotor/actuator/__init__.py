@@ -17,7 +17,7 @@ from rotor.actuator.catalogue import (
     find_actuator,
     programmes,
 )
-from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
+from rotor.actuator.flight import ActuatorFlight, fly
 from rotor.actuator.harmonic import EffectInFlight, effect, harmonic_share, powers, tip_amplitude
 from rotor.actuator.installation import (
     InstalledActuator,
@@ -25,17 +25,16 @@ from rotor.actuator.installation import (
     with_actuator,
     with_actuator_mass,
 )
-from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import BreakEven, OtherStroke, break_even, other_stroke, pay_sentence
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.stopped import failure
 from rotor.actuator.verdict import Verdict, judge, try_actuator, verdict_details, verdict_sentence
 
 __all__ = (
-    "Actuator", "ActuatorFlight", "BreakEven", "ConditionPair", "EffectInFlight", "Engines", "ExtensionTwist",
-    "FlightLeg", "HostBlade", "InstalledActuator", "OtherStroke", "PiezoPly", "Placement", "Programme", "TorqueTube",
+    "Actuator", "ActuatorFlight", "BreakEven", "EffectInFlight", "Engines", "ExtensionTwist",
+    "HostBlade", "InstalledActuator", "OtherStroke", "PiezoPly", "Placement", "Programme", "TorqueTube",
     "Verdict", "actuators", "break_even", "default_placement", "effect", "engines_of", "failure", "find_actuator",
     "fly", "harmonic_share", "install", "judge", "other_stroke", "pay_sentence", "powers", "programmes",
-    "standard_flight", "tip_amplitude", "try_actuator", "verdict_details", "verdict_sentence", "with_actuator",
+    "tip_amplitude", "try_actuator", "verdict_details", "verdict_sentence", "with_actuator",
     "with_actuator_mass",
 )  # fmt: skip

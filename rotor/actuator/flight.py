@@ -9,37 +9,10 @@ from rotor.actuator.optimum import TwistOptimum, best_swings
 from rotor.actuator.verdict import Verdict
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.optimisation.mission import FlightLeg
 from rotor.support.arrays import Array
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve
-
-
-@dataclass(frozen=True)
-class FlightLeg:
-    """One steady part of a flight."""
-
-    name: str
-    advance_ratio: float
-    climb_speed: float = 0.0
-    """[m/s], negative in descent."""
-
-    def of(self, design: Design) -> Design:
-        """The design in the flight condition of this leg."""
-        condition = replace(
-            design.condition, advance_ratio=self.advance_ratio, climb_speed=self.climb_speed
-        )
-        return replace(design, condition=condition)
-
-
-def standard_flight(design: Design) -> tuple[FlightLeg, ...]:
-    """Hover, a climb of 5 m/s (about 1000 ft/min) near the speed of least power, cruise and fast flight.
-
-    Level in place of the climb where the models of the design know no axial flow.
-    """
-    climb = (
-        FlightLeg("climb", 0.15, 5.0) if design.models.disk_axial_flow else FlightLeg("slow", 0.15)
-    )
-    return (FlightLeg("hover", 0.0), climb, FlightLeg("cruise", 0.25), FlightLeg("fast", 0.33))
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,21 +41,21 @@ class ActuatorFlight:
 def fly(verdict: Verdict, legs: Sequence[FlightLeg] | None = None) -> ActuatorFlight:
     """Fly the actuator of a verdict over these legs: its jig twist and range stay, its drive follows the flight.
 
-    legs: None for those of `standard_flight`.
+    legs: None for those of the verdict's mission.
 
     Everything is trimmed, each leg from the one before; legs that are flown alike are trimmed once and have one answer.
     ValueError without a leg, RuntimeError with one sentence that names the leg where nothing trims.
     """
-    legs = standard_flight(verdict.baseline.pair.design) if legs is None else legs
+    installed, base, mission = verdict.installed, verdict.baseline, verdict.baseline.mission
+    legs = mission.legs if legs is None else legs
     if not legs:
         raise ValueError("a flight needs a leg: give at least one FlightLeg")
-    installed, base, pair = verdict.installed, verdict.baseline, verdict.baseline.pair
     undriven, per_unit, drives = _drives(verdict)
     window = np.sort(undriven[:, None] + np.outer(per_unit, drives), axis=1)
     keeps = installed.host.kind == "retrofit"
-    jig = pair.design.twist if keeps else base.concept.twist(verdict.optimum.values)
+    jig = mission.design.twist if keeps else base.concept.twist(verdict.optimum.values)
     shapes = installed.shapes[:, -1]
-    flights = [leg.of(pair.design) for leg in legs]
+    flights = [leg.of(mission.design) for leg in legs]
     found: dict[Design, TwistOptimum] = {}
     near: Solution | None = None
     for leg, design in zip(legs, flights, strict=True):
@@ -114,12 +87,13 @@ def _drives(verdict: Verdict) -> tuple[Array, Array, tuple[float, float]]:
     the verdict's voltages have.
     """
     actuator, voltages = verdict.installed.actuator, verdict.voltages
-    first, second = np.array(verdict.optimum.swings)
+    swings = np.array(verdict.optimum.swings)
+    first = swings[0]
     if not voltages:
-        return np.zeros_like(first), np.copysign(1.0, first + second), (0.0, 1.0)
-    a, b = np.array(voltages).T
+        return np.zeros_like(first), np.copysign(1.0, swings.sum(axis=0)), (0.0, 1.0)
+    volts = np.array(voltages).T
     per_volt = np.full_like(first, 1.0 / actuator.drive_swing)
     if verdict.installed.host.kind == "new":
-        return first - a * per_volt, per_volt, actuator.drive_range
-    turned = first * a + second * b < 0.0  # Fibres laid in the other direction.
+        return first - volts[0] * per_volt, per_volt, actuator.drive_range
+    turned = np.sum(swings * volts, axis=0) < 0.0  # Fibres laid in the other direction.
     return np.zeros_like(first), per_volt * np.where(turned, -1.0, 1.0), actuator.drive_range

@@ -6,7 +6,7 @@ A kind derives from `Actuator`. What it does not say is that of a passive one: n
 import math
 import re
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from typing import Any, ClassVar, Self
 
@@ -230,8 +230,8 @@ class Actuator(ABC):
 
     def voltages(
         self, swings: tuple[Swings, ...], host: HostBlade
-    ) -> tuple[tuple[float, float], ...]:
-        """Voltage of each segment at both conditions [V]; empty where voltage does not drive it."""
+    ) -> tuple[tuple[float, ...], ...]:
+        """Voltages of each segment, one for each leg [V]; empty where voltage does not drive it."""
         return ()
 
     # On a blade
@@ -267,7 +267,7 @@ class Actuator(ABC):
         return 0.0
 
     def limits(
-        self, installed: "InstalledActuator", swings: Swings, solution: Solution | None
+        self, installed: "InstalledActuator", swings: Swings, solutions: Sequence[Solution]
     ) -> tuple[Limit, ...]:
         """Limits that only this kind has, for the required `swings`, which may exceed 1."""
         return ()

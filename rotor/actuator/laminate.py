@@ -1,6 +1,7 @@
 """Passive laminates that twist with rotor speed."""
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rotor.actuator.kind import Actuator, InstalledActuator, Limit, Swings
@@ -43,7 +44,7 @@ class ExtensionTwist(Actuator):
         return (self.attainable * shape / shape[-1])[None, :]
 
     def limits(
-        self, installed: InstalledActuator, swings: Swings, solution: Solution | None
+        self, installed: InstalledActuator, swings: Swings, solutions: Sequence[Solution]
     ) -> tuple[Limit, ...]:
         percent = 100.0 * self.speed_change
         sentence = (

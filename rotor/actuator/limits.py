@@ -9,6 +9,7 @@ bend several times as much. Range: below the second flap mode (2.8/rev), no coup
 with tension stiffness.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -133,13 +134,13 @@ class FibreStrain:
 
 
 def fibre_strain(
-    installed: InstalledActuator, nu: float, solution: Solution | None = None
+    installed: InstalledActuator, nu: float, solutions: Sequence[Solution] = ()
 ) -> FibreStrain:
     """ε_f = ½ε_x(1 − ν) + ½γ at 45°, from F_c/EA, M_flap h/EI and the twist's own shear.
 
-    At another angle ε_f = ε_x(c² − ν s²) + γ s c, `nu` that of the sheet. Without a solution the flap part is zero. The
-    shear of a full voltage swing is taken from the twist rate, γ = 2A θ'/s of a closed cell, a bound for sheets that
-    follow the skin.
+    At another angle ε_f = ε_x(c² − ν s²) + γ s c, `nu` that of the sheet. The flap part is the largest of the
+    solutions, and zero without any. The shear of a full voltage swing is taken from the twist rate, γ = 2A θ'/s of a
+    closed cell, a bound for sheets that follow the skin.
     """
     rotor_structure = uh60a_structure(float(installed.beam.r[-1]))
     r = np.linspace(*installed.placement.span, _STATIONS)
@@ -151,10 +152,11 @@ def fibre_strain(
     s, c = np.sin(installed.placement.angle), np.cos(installed.placement.angle)
     along = c**2 - nu * s**2
     bending = np.zeros_like(r)
-    if solution is not None:
+    for solution in solutions:
         moment = np.abs(elastic_flap_moment(solution, rotor_structure, metres)).max(axis=1)
         arm = HALF_THICKNESS * rotor_structure.chord
-        bending = moment * arm / rotor_structure.at(metres, rotor_structure.flap_stiffness)
+        strain = moment * arm / rotor_structure.at(metres, rotor_structure.flap_stiffness)
+        bending = np.maximum(bending, strain)
     # 2A/s of a closed contour is its mean thickness, at most the greatest: on the safe side.
     shear = abs(installed.twist_rate) * 2.0 * HALF_THICKNESS * rotor_structure.chord
     pulled = along * pull / rotor_structure.axial_stiffness
@@ -164,14 +166,13 @@ def fibre_strain(
 
 
 def limits(
-    installed: InstalledActuator, swings: tuple[float, ...], solution: Solution | None = None
+    installed: InstalledActuator, swings: tuple[float, ...], solutions: Sequence[Solution] = ()
 ) -> tuple[Limit, ...]:
     """All constraints of thesis §5.2 that can be quantified.
 
-    `swings`: required twist of each segment over its range, may exceed 1. `solution`: the flight condition for flap
-    bending.
+    `swings`: required twist of each segment over its range, may exceed 1. `solutions`: the legs for flap bending.
     """
-    own = installed.actuator.limits(installed, swings, solution)
+    own = installed.actuator.limits(installed, swings, solutions)
     ends = installed.actuator.temperature_range
     carried = () if ends is None else (_temperature(installed, ends[1]), _mass(installed))
     return *own, *carried, *_torsion(installed)

@@ -1,18 +1,20 @@
-"""Optimum twist at two flight conditions, with and without an actuator.
+"""Optimum twist over a mission, with and without an actuator.
 
 With an actuator the optimum is sought among the twists it can make,
 
-    θ_k(r) = θ_jig(p; r) + s Σ_j v_kj φ_j(r),   k = from, to,
+    θ_k(r) = θ_jig(p; r) + s Σ_j v_kj φ_j(r),   k = 1 … legs,
 
 with φ_j the twist of segment j over its whole voltage range: of the blade at rest where the trim is elastic, which
 finds what rotation and air make of it, else of the rotating blade. s scales the range: 0 for a blade that carries the
-actuator without driving it. A new blade chooses its jig twist p within the concept, so only differences of v matter. A
-retrofit keeps its twist, so its voltages count from zero. SLSQP with exact gradients minimises the mean power of the
-two conditions, weighted by their shares of time.
+actuator without driving it. A new blade chooses its jig twist p within the concept, so only differences of v matter:
+v is zero on the first leg, and no two legs differ by more than the range. A retrofit keeps its twist, so its voltages
+count from zero. SLSQP with exact gradients minimises the mean power of the legs, weighted by their hours.
 """
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import Any
 
 import numpy as np
 
@@ -22,6 +24,7 @@ from rotor.design.design import Design
 from rotor.design.twist import REFERENCE_RADIUS, PiecewiseLinearTwist, SumTwist, TwistLaw
 from rotor.optimisation.concepts import Concept, nearest, restrict
 from rotor.optimisation.descent import slsqp
+from rotor.optimisation.mission import Mission
 from rotor.support.arrays import Array
 from rotor.support.bytes_cache import bytes_cache
 from rotor.trim.adjoint import PitchGradient
@@ -36,49 +39,9 @@ FLATTENED_SHARE = 0.5
 """A second start: the first law flattened by this much."""
 
 
-@dataclass(frozen=True)
-class ConditionPair:
-    """Two flight conditions of one aircraft."""
-
-    design: Design
-    """Rotor, models, mass and altitude; its twist is what a retrofit starts from."""
-    advance_ratios: tuple[float, float]
-    """From, to."""
-    share: float = 0.5
-    """Fraction of the time spent in the second condition."""
-
-    def __post_init__(self) -> None:
-        if not 0.0 < self.share < 1.0:
-            raise ValueError(
-                f"time share {self.share:g} is not between 0 and 1: give the fraction of time in the second condition"
-            )
-        if self.advance_ratios[0] == self.advance_ratios[1]:
-            raise ValueError(
-                f"both conditions have advance ratio {self.advance_ratios[0]:g}: give two that differ"
-            )
-
-    @property
-    def shares(self) -> tuple[float, float]:
-        """Shares of time at the two conditions, which add up to 1."""
-        return 1.0 - self.share, self.share
-
-    def mean(self, values: Iterable[float]) -> float:
-        """Mean of a value at either condition, by shares of time."""
-        return sum(share * value for share, value in zip(self.shares, values, strict=True))
-
-    def designs(self, base: Design | None = None) -> tuple[Design, Design]:
-        """The design at both conditions."""
-        base = base or self.design
-        first, second = (
-            replace(base, condition=replace(base.condition, advance_ratio=mu))
-            for mu in self.advance_ratios
-        )
-        return first, second
-
-
 @dataclass(frozen=True, eq=False)
 class TwistOptimum:
-    """An optimum over one or two conditions."""
+    """An optimum over one condition or the legs of a mission."""
 
     values: tuple[float, ...]
     """The concept's parameters of the jig twist (SI)."""
@@ -103,14 +66,14 @@ def best_twist(
 
 
 def best_fixed(
-    pair: ConditionPair, concept: Concept, *, known: "_Known | None" = None
+    mission: Mission, concept: Concept, *, known: "_Known | None" = None
 ) -> TwistOptimum:
     """The concept's fixed twist of least mean power."""
-    return _search((pair.designs(), pair.shares, ()), concept, None, (), known=known)
+    return _search((mission.designs(), mission.shares, ()), concept, None, (), known=known)
 
 
 def best_actuated(
-    pair: ConditionPair,
+    mission: Mission,
     concept: Concept,
     installed: InstalledActuator,
     *,
@@ -119,7 +82,7 @@ def best_actuated(
     near: Sequence[Solution] = (),
 ) -> TwistOptimum:
     """Least mean power [W] with the actuator within `scale` times its range; `near`: trims to start from."""
-    return _search((pair.designs(), pair.shares, near), concept, (installed, scale), starts)
+    return _search((mission.designs(), mission.shares, near), concept, (installed, scale), starts)
 
 
 def best_swings(
@@ -159,16 +122,13 @@ def _search(
     if installed is not None and installed.host.kind == "retrofit":
         low, high = installed.actuator.retrofit_swings
         either = ((low, high), (-high, -low)) if driven else (_AT_REST,)  # Direction of fibres.
-        minimisers = [
-            _MeanPowerMinimiser(flights, None, fitted, [ends] * 2 * len(installed.shapes), known)
-            for ends in either
-        ]
-        jigs: list[Sequence[float]] = [()]
+        found = [_with_own_twist(flights, fitted, ends, known) for ends in either]
     else:
         # From the first condition: only differences matter.
         segments = len(installed.shapes) if installed else 0
-        bounds = [_AT_REST] * segments + [(-1.0, 1.0) if driven else _AT_REST] * segments
-        minimisers = [_MeanPowerMinimiser(flights, concept, fitted, bounds, known)]
+        others = (len(flights[0]) - 1) * segments
+        bounds = [_AT_REST] * segments + [(-1.0, 1.0) if driven else _AT_REST] * others
+        minimiser = _MeanPowerMinimiser(flights, concept, fitted, bounds, known)
         jigs = list(starts)
         if not alone and (installed is None or not starts):
             first = nearest(concept, flights[0][0].twist)
@@ -177,17 +137,38 @@ def _search(
                 for v, p in zip(first, concept.parameters, strict=True)
             )
             jigs += [first, flatter]
-    optima = [
-        reached
-        for minimiser in minimisers
-        for jig in jigs
-        if (reached := minimiser.descend(jig)) is not None
-    ]
+        found = [minimiser.descend(jig) for jig in jigs]
+    optima = [optimum for optimum in found if optimum is not None]
     if not optima:
         raise RuntimeError(
             "No twist of this concept trims at these conditions: reduce mass or advance ratio."
         )
     return min(optima, key=lambda reached: reached.power)
+
+
+def _with_own_twist(
+    flights: _Flights, fitted: _Fitted, ends: tuple[float, float], known: _Known
+) -> TwistOptimum | None:
+    """Least power of a blade that keeps its built-in twist, leg by leg; None where a leg does not trim.
+
+    No leg's swings bear on another leg.
+    """
+    assert fitted is not None
+    designs, shares, near = flights
+    bounds = [ends] * len(fitted[0].shapes)
+    legs: list[TwistOptimum] = []
+    for k, design in enumerate(designs):
+        alone = ((design,), (1.0,), near[k : k + 1])
+        reached = _MeanPowerMinimiser(alone, None, fitted, bounds, known).descend(())
+        if reached is None:
+            return None
+        legs.append(reached)
+    return TwistOptimum(
+        (),
+        tuple(leg.swings[0] for leg in legs),
+        tuple(leg.solutions[0] for leg in legs),
+        sum(share * leg.power for share, leg in zip(shares, legs, strict=True)),
+    )
 
 
 class _MeanPowerMinimiser:
@@ -216,6 +197,7 @@ class _MeanPowerMinimiser:
         bounds = [(p.low, p.high) for p in concept.parameters] if concept else []
         self.low, high = np.array([*bounds, *swings]).T
         self.span = high - self.low
+        self.within_range = self._within_range()
 
     def descend(self, jig: Sequence[float]) -> TwistOptimum | None:
         start = np.concatenate((jig, np.zeros(len(self.low) - len(jig))))
@@ -235,7 +217,7 @@ class _MeanPowerMinimiser:
         x, final = x0, first
         if free.any():
             bounds, options = [(0.0, float(f)) for f in free], {"maxiter": 60, "ftol": 1e-9}
-            ended = slsqp(scaled, x0, bounds=bounds, options=options)
+            ended = slsqp(scaled, x0, bounds=bounds, constraints=self.within_range, options=options)
             x = np.asarray(np.clip(ended.x, 0.0, 1.0), dtype=np.float64)
             final = self._power(x)
             if final is None or final[0] > unit:
@@ -246,6 +228,35 @@ class _MeanPowerMinimiser:
         return TwistOptimum(
             tuple(values), swings, tuple(trim for trim in self.trims if trim is not None), final[0]
         )
+
+    def _within_range(self) -> list[dict[str, Any]]:
+        """Constraints that no two legs after the first differ by more than the range, as scipy takes them.
+
+        Bounds say so of the first leg, where a blade chooses its jig twist, and of all legs where it keeps its own.
+        """
+        later = range(1, len(self.designs))
+        rows: list[Array] = []
+        if self.concept is not None:
+            place = np.arange(len(self.low)) - (len(self.low) - len(self.designs) * self.segments)
+            for one, other in combinations(later, 2):
+                for segment in range(self.segments):
+                    row = 1.0 * (place == one * self.segments + segment)
+                    rows.append(row - (place == other * self.segments + segment))
+        slopes = np.array(rows) * self.span if rows else np.zeros((0, len(self.low)))
+        if not slopes.any():
+            return []
+        offset = np.array(rows) @ self.low
+
+        def room(x: Array) -> Array:
+            apart = offset + slopes @ x
+            return np.concatenate([1.0 - apart, 1.0 + apart])
+
+        both = np.concatenate([-slopes, slopes])
+
+        def slopes_of_room(_: Array) -> Array:
+            return both
+
+        return [{"type": "ineq", "fun": room, "jac": slopes_of_room}]
 
     def _split(self, x: Array) -> tuple[list[float], Array]:
         """Parameters of the jig twist, and swings, (conditions, segments), of a scaled point."""
@@ -309,20 +320,20 @@ def divisions_of(law: TwistLaw, parameters: int) -> tuple[float, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Baseline:
-    """Optima of one concept for a pair of flight conditions, without an actuator."""
+    """Optima of one concept over a mission, without an actuator."""
 
-    pair: ConditionPair
+    mission: Mission
     concept: Concept
     """Breaks fixed where the best fixed blade has them: an actuator cannot move them in flight."""
-    best: tuple[TwistOptimum, TwistOptimum]
-    """At each condition alone."""
+    best: tuple[TwistOptimum, ...]
+    """On each leg alone."""
     fixed: TwistOptimum
-    """One blade for both."""
+    """One blade for all legs."""
 
     @property
     def ideal_power(self) -> float:
         """Mean power with free in-flight twist [W]."""
-        return self.pair.mean(best.power for best in self.best)
+        return self.mission.mean(best.power for best in self.best)
 
     @property
     def ideal_saving(self) -> float:
@@ -339,27 +350,32 @@ class Baseline:
         """Stations r/R at which the segments of the concept meet."""
         return divisions_of(self.fixed_twist, len(self.fixed.values))
 
-    def change(self, r: Array) -> Array:
-        """Required change of twist from the first condition to the second at r/R [rad], zero at the cut-out."""
-        first, second = (self.concept.twist(best.values) for best in self.best)
-        root = self.pair.design.rotor.blade.root_cutout
-        start = float(second(root) - first(root))
-        return second(r) - first(r) - start
-
     def segment_changes(self, divisions: tuple[float, ...]) -> Array:
-        """Required change over each segment, cut-out to tip [rad], (segments,)."""
-        edges = np.array([self.pair.design.rotor.blade.root_cutout, *divisions, 1.0])
-        return np.diff(self.change(edges))
+        """Widest change of twist between the optima of two legs over each segment, cut-out to tip [rad], (segments,).
+
+        Positive where the later leg of the two has the tip further up.
+        """
+        edges = np.array([self.mission.design.rotor.blade.root_cutout, *divisions, 1.0])
+        twists = [np.diff(self.concept.twist(best.values)(edges)) for best in self.best]
+        return widest_changes(np.array(twists))
+
+
+def widest_changes(values: Array) -> Array:
+    """From (legs, segments), the change between the two legs that are farthest apart, the later less the earlier."""
+    lowest = values.argmin(axis=0)
+    highest = values.argmax(axis=0)
+    return np.where(highest >= lowest, 1.0, -1.0) * np.ptp(values, axis=0)
 
 
 @bytes_cache
-def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
+def baseline(mission: Mission, concept: Concept) -> Baseline:
     """Find the optima; free breaks are fixed at those of the best fixed blade.
 
-    Raises RuntimeError with one sentence when no twist trims.
+    The slowest and the fastest leg are searched from the starts of a concept, the legs between from the best fixed
+    blade alone: their optima lie between. Raises RuntimeError with one sentence when no twist trims.
     """
     known: _Known = {}
-    fixed = best_fixed(pair, concept, known=known)
+    fixed = best_fixed(mission, concept, known=known)
     named = list(zip(concept.parameters, fixed.values, strict=True))
     breaks = {parameter.name: value for parameter, value in named if parameter.unit == "R"}
     if breaks:
@@ -367,17 +383,15 @@ def baseline(pair: ConditionPair, concept: Concept) -> Baseline:
         fixed = replace(
             fixed, values=tuple(value for parameter, value in named if parameter.unit != "R")
         )
-    first, second = (
-        best_twist(design, concept, [fixed.values], known=known) for design in pair.designs()
+    designs = mission.designs()
+    by_speed = sorted(range(len(designs)), key=lambda k: designs[k].condition.advance_ratio)
+    ends = by_speed[0], by_speed[-1]
+    best = tuple(
+        best_twist(design, concept, [fixed.values], alone=k not in ends, known=known)
+        for k, design in enumerate(designs)
     )
-    # Without breaks the other two are those found above.
-    starts = [
-        fixed.values,
-        first.values,
-        second.values,
-    ]
-    flights = pair.designs(), pair.shares, ()
+    # Without breaks the other two starts are those found above.
+    starts = [fixed.values, *(best[k].values for k in ends)]
+    flights = designs, mission.shares, ()
     better = _search(flights, concept, None, starts, alone=not breaks, known=known)
-    return Baseline(
-        pair, concept, (first, second), min((fixed, better), key=lambda optimum: optimum.power)
-    )
+    return Baseline(mission, concept, best, min((fixed, better), key=lambda optimum: optimum.power))

@@ -1,12 +1,13 @@
 """What an actuator would have to be: the break-even line of twist, mass and drive.
 
 The line knows no blade structure, so it holds for any rotor: twist is linear along the blade, its range is
-used at both conditions, the mass lies evenly on the blades over the span where plies would be. With the range x and
+used over all legs, the mass lies evenly on the blades over the span where plies would be. With the range x and
 the mass m of all blades together
 
-    net(x, m, W) = gross(x) − cost(m) − W,   gross(x) = P_fixed − min over θ of [s₁ P₁(θ) + s₂ P₂(θ + x)]
+    net(x, m, W) = gross(x) − cost(m) − W,   gross(x) = P_fixed − min over θ of Σ_k s_k P_k(θ_k),   θ ≤ θ_k ≤ θ + x
 
-and the line is where net = 0. P_fixed is the best fixed blade, s the shares of time. A ply over part of the span, or on
+and the line is where net = 0. P_fixed is the best fixed blade, s_k the share of time of a leg, θ_k the twist within the
+range that is nearest to the leg's own optimum. A ply over part of the span, or on
 a softer blade, saves more or less than its tip twist would along the whole blade.
 """
 
@@ -17,7 +18,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.optimize import minimize_scalar
 
-from rotor.actuator.optimum import Baseline, ConditionPair, baseline, best_actuated
+from rotor.actuator.optimum import Baseline, baseline, best_actuated, widest_changes
 from rotor.actuator.section import default_placement
 from rotor.actuator.verdict import Verdict
 from rotor.design.design import Design
@@ -25,6 +26,7 @@ from rotor.design.uncertain import UNCERTAIN
 from rotor.dynamics.structure import heavier
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.doubt import difference_doubt
+from rotor.optimisation.mission import Mission
 from rotor.support.arrays import Array, read_only
 from rotor.support.bytes_cache import bytes_cache
 from rotor.support.chart import Axis, Chart, Line
@@ -57,17 +59,17 @@ class Requirement:
 class BreakEven:
     """Where an actuator of linear twist begins to pay on one rotor; arrays are (points,), twist ascending from zero."""
 
-    pair: ConditionPair
+    mission: Mission
     fixed_power: float
     """Mean of the best fixed blade [W]."""
     change: float
-    """Between the optima of both conditions, tip relative to root, signed [rad]; the last of `twists` is its size."""
+    """Widest between the optima of two legs, tip relative to root, signed [rad]; the last of `twists` is its size."""
     twists: Array
     """Range of the tip relative to the root [rad]."""
     gross: Array
     """Saving before mass and drive [W]."""
     rates: Array
-    """Linear twist at the first condition [rad per radius]."""
+    """Linear twist on each leg [rad per radius], (points, legs)."""
     masses: Array
     """Mass of all blades whose carrying costs as much as the twist saves [kg]."""
     ideal_band: float
@@ -117,72 +119,69 @@ class BreakEven:
 
 @bytes_cache
 @read_only
-def break_even(pair: ConditionPair) -> BreakEven:
-    """The break-even line of any rotor for a pair of flight conditions, by searches.
+def break_even(mission: Mission) -> BreakEven:
+    """The break-even line of any rotor over a mission, by searches.
 
     Raises RuntimeError with one sentence where nothing trims.
     """
-    base = baseline(pair, find_concept("linear"))
-    (first,), (second,) = (best.values for best in base.best)
-    root = pair.design.rotor.blade.root_cutout
-    largest = second - first
+    base = baseline(mission, find_concept("linear"))
+    best = np.array([optimum.values[0] for optimum in base.best])
+    root = mission.design.rotor.blade.root_cutout
+    largest = float(widest_changes(best[:, None])[0])
     twists = np.linspace(0.0, abs(largest), LINE_POINTS)
     task = _Flown(base)
-    gross, rates, masses = np.zeros(LINE_POINTS), np.zeros(LINE_POINTS), np.zeros(LINE_POINTS)
-    rates[0] = base.fixed.values[0]
+    gross = np.zeros(LINE_POINTS)
+    masses = np.zeros(LINE_POINTS)
+    rates = np.full((LINE_POINTS, len(best)), base.fixed.values[0])
     for k in range(1, LINE_POINTS):
-        swing = math.copysign(float(twists[k]), largest)
-        rates[k], power = task.best(
-            swing, (min(first, base.fixed.values[0] - swing), max(first, base.fixed.values[0]))
-        )
+        rates[k], power = task.best(best, float(twists[k]))
         gross[k] = max(base.fixed.power - power, float(gross[k - 1]))
-        masses[k] = task.mass(float(rates[k]), swing, base.fixed.power, float(masses[k - 1]))
+        masses[k] = task.mass(rates[k], base.fixed.power, float(masses[k - 1]))
     span = 1.0 - root
     ideal = difference_doubt(
-        pair.shares, [best.solutions[0] for best in base.best], base.fixed.solutions
+        mission.shares, [optimum.solutions[0] for optimum in base.best], base.fixed.solutions
     )
     assert ideal is not None
     within = ideal.change_band or 0.0
     return BreakEven(
-        pair, base.fixed.power, span * largest, span * twists, gross, rates, masses, within
+        mission, base.fixed.power, span * largest, span * twists, gross, rates, masses, within
     )
 
 
 class _Flown:
-    """Mean power of a linear twist that differs between both conditions; each trim starts from the one before."""
+    """Mean power of a linear twist that differs from leg to leg; each trim starts from the one before."""
 
     def __init__(self, base: Baseline) -> None:
-        self.base, self.pair = base, base.pair
-        self.trims: tuple[Solution | None, ...] = (None, None)
+        self.base = base
+        self.mission = base.mission
+        self.trims: tuple[Solution | None, ...] = (None,) * len(base.best)
 
-    def power(self, rates: tuple[float, float], mass: float = 0.0) -> float:
+    def power(self, rates: Array, mass: float = 0.0) -> float:
         """With a mass on all blades together [kg]."""
         designs = [
             self.base.concept.apply(one, [rate])
-            for one, rate in zip(self.pair.designs(), rates, strict=True)
+            for one, rate in zip(self.mission.designs(), rates.tolist(), strict=True)
         ]
         trims = tuple(
             solve(with_mass(design, mass), near).require()
             for design, near in zip(designs, self.trims, strict=True)
         )
         self.trims = trims
-        return self.pair.mean(trim.power.total for trim in trims)
+        return self.mission.mean(trim.power.total for trim in trims)
 
-    def best(self, swing: float, between: tuple[float, float]) -> tuple[float, float]:
-        """The rate at the first condition of least power, and that power."""
-        low, high = min(between) - 0.01, max(between) + 0.01
+    def best(self, optima: Array, reach: float) -> tuple[Array, float]:
+        """The rates of least power within some range of each other, and that power; `optima`: each leg's own."""
         search = minimize_scalar(
-            lambda rate: self.power((rate, rate + swing)),
-            bounds=(low, high),
+            lambda low: self.power(np.clip(optima, low, low + reach)),
+            bounds=(float(optima.min()) - 0.01, float(optima.max()) - reach + 0.01),
             method="bounded",
             options={"xatol": 1e-5},
         )
-        return float(search.x), float(search.fun)
+        return np.clip(optima, search.x, search.x + reach), float(search.fun)
 
-    def mass(self, rate: float, swing: float, target: float, start: float) -> float:
+    def mass(self, rates: Array, target: float, start: float) -> float:
         """The mass with which that twist takes the target power [kg], by secants."""
-        rates = (rate, rate + swing)
-        a, b = start, start + max(1.0, 1e-3 * self.pair.design.condition.mass)
+        a, b = start, start + max(1.0, 1e-3 * self.mission.design.condition.mass)
         fa, fb = self.power(rates, a) - target, self.power(rates, b) - target
         for _ in range(12):
             a, b, fa = b, b - fb * (b - a) / (fb - fa), fb
@@ -276,20 +275,20 @@ def other_stroke(verdict: Verdict) -> OtherStroke:
     flown = verdict.optimum.solutions
     if not flown:  # The trims were left behind.
         flown = best_actuated(
-            base.pair, base.concept, installed, starts=[verdict.optimum.values]
+            base.mission, base.concept, installed, starts=[verdict.optimum.values]
         ).solutions
     reference = _trims(base, flown, fixed=verdict.against == "best-fixed")
     resting = _resting_trims(verdict, flown)
-    doubts = {0.0: difference_doubt(base.pair.shares, resting, reference)}
+    doubts = {0.0: difference_doubt(base.mission.shares, resting, reference)}
     start = [verdict.resting.values]
     near = flown
     for stroke in OTHER_STROKES:
         found = best_actuated(
-            base.pair, base.concept, installed, scale=stroke, starts=start, near=near
+            base.mission, base.concept, installed, scale=stroke, starts=start, near=near
         )
         powers[stroke] = found.power
         near = found.solutions
-        doubts[stroke] = difference_doubt(base.pair.shares, near, reference)
+        doubts[stroke] = difference_doubt(base.mission.shares, near, reference)
     strokes = sorted(powers)
     least = [min(strokes[: k + 1], key=lambda stroke: powers[stroke]) for k in range(len(strokes))]
     saved = np.array(
@@ -310,10 +309,10 @@ def _resting_trims(verdict: Verdict, near: Sequence[Solution]) -> Sequence[Solut
     installed = verdict.installed
     if verdict.resting.solutions:
         return verdict.resting.solutions
-    if base.pair.design.elastic:
+    if base.mission.design.elastic:
         values = [verdict.resting.values]
         resting = best_actuated(
-            base.pair, base.concept, installed, scale=0.0, starts=values, near=near
+            base.mission, base.concept, installed, scale=0.0, starts=values, near=near
         )
         return resting.solutions
     # The actuator changes a rigid blade by its drive alone.
@@ -322,7 +321,7 @@ def _resting_trims(verdict: Verdict, near: Sequence[Solution]) -> Sequence[Solut
 
 def _trims(base: Baseline, near: Sequence[Solution], *, fixed: bool) -> Sequence[Solution]:
     """Trims of the blade without an actuator: the best fixed one, or as built; `near`: trims to start from."""
-    designs = base.pair.designs()
+    designs = base.mission.designs()
     if fixed:
         designs = [base.concept.apply(design, base.fixed.values) for design in designs]
     return [solve(design, start).require() for design, start in zip(designs, near, strict=True)]

@@ -5,7 +5,7 @@ electrode pitch), continuous electrodes through the thickness (d31, gap = thickn
 """
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, Literal, Self
@@ -153,20 +153,18 @@ class PiezoPly(Actuator):
 
     def voltages(
         self, swings: tuple[Swings, ...], host: HostBlade
-    ) -> tuple[tuple[float, float], ...]:
-        """A retrofit counts from zero volts. A new blade's jig twist is set so that the two voltages of a segment lie
-        around zero as far as the negative range allows; without voltage the blade then flies between its two twists.
+    ) -> tuple[tuple[float, ...], ...]:
+        """A retrofit counts from zero volts. A new blade's jig twist is set so that the voltages of a segment lie
+        around zero as far as the negative range allows; without voltage the blade then flies between its twists.
         """
-        (low, high), voltages = self.voltage_range, list[tuple[float, float]]()
-        for first, second in zip(*swings, strict=True):
-            a, b = first * self.voltage_swing, second * self.voltage_swing
+        low, high = self.voltage_range
+        voltages = self.voltage_swing * np.array(swings).T
+        for segment in voltages:
             if host.kind == "new":
-                offset = max(low, -0.5 * abs(b - a)) - min(a, b)
-                a, b = a + offset, b + offset
-            elif min(a, b) < low - 1e-6 or max(a, b) > high + 1e-6:
-                a, b = -a, -b  # Fibres laid in the other direction.
-            voltages.append((a, b))
-        return tuple(voltages)
+                segment += max(low, -0.5 * np.ptp(segment)) - segment.min()
+            elif segment.min() < low - 1e-6 or segment.max() > high + 1e-6:
+                segment *= -1.0  # Fibres laid in the other direction.
+        return tuple(tuple(segment) for segment in voltages.tolist())
 
     # On a blade
 
@@ -216,11 +214,11 @@ class PiezoPly(Actuator):
     # Limits
 
     def limits(
-        self, installed: InstalledActuator, swings: Swings, solution: Solution | None
+        self, installed: InstalledActuator, swings: Swings, solutions: Sequence[Solution]
     ) -> tuple[Limit, ...]:
         return (
             *self._electrical(swings),
-            self._strain(installed, solution),
+            self._strain(installed, solutions),
             self._surface(installed),
         )
 
@@ -239,13 +237,13 @@ class PiezoPly(Actuator):
         voltage = Limit("voltage", ok, most, self.voltage_swing, "V", by_voltage)
         return voltage, Limit("field", ok, field, allowed, "kV/mm", by_field)
 
-    def _strain(self, installed: InstalledActuator, solution: Solution | None) -> Limit:
-        strain = fibre_strain(installed, self.material.nu12, solution)
+    def _strain(self, installed: InstalledActuator, solutions: Sequence[Solution]) -> Limit:
+        strain = fibre_strain(installed, self.material.nu12, solutions)
         worst, linear, most = (
             1e6 * x for x in (float(strain.total.max()), self.linear_strain, self.largest_strain)
         )
         where = float(strain.r[strain.total.argmax()])
-        flap = "with flap bending of the trimmed rotor" if solution else "without flap bending"
+        flap = "with flap bending of the trimmed rotor" if solutions else "without flap bending"
         sentence = (
             f"Fibre strain is up to {worst:.0f} µε at {where:.2f} R ({flap}); the sheet is linear "
             f"up to {linear:.0f} µε and must stay below {most:.0f} µε."

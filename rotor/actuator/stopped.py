@@ -7,11 +7,12 @@ import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
-from rotor.actuator.flight import FlightLeg, fly
+from rotor.actuator.flight import fly
 from rotor.actuator.installation import with_actuator_mass
 from rotor.actuator.verdict import Verdict, try_actuator
 from rotor.design.design import Design
 from rotor.design.twist import TwistLaw
+from rotor.optimisation.mission import FlightLeg
 from rotor.trim.control_stops import rigged_collective
 from rotor.trim.solution import Solution
 from rotor.trim.solve import solve

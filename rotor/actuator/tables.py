@@ -9,11 +9,11 @@ from dataclasses import dataclass
 
 from rotor.actuator.catalogue import STEPS, actuators, find_actuator
 from rotor.actuator.kind import MOST_BOUNDS, Actuator
-from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.pay import WANTED_SHARE, BreakEven
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.verdict import Verdict, judge, reference
 from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.mission import Mission
 from rotor.support.terminal import wrapped
 from rotor.trim.doubt import rounded_pair, sureness
 
@@ -101,12 +101,12 @@ def _properties(actuator: Actuator, blank: Row) -> Row:
 
 
 def table_5_2(
-    pair: ConditionPair, *, placement: Placement | None = None, host: HostBlade | None = None
+    mission: Mission, *, placement: Placement | None = None, host: HostBlade | None = None
 ) -> ActuatorTable:
-    """Actuators and concepts compared for one pair of flight conditions, best net saving first."""
+    """Actuators and concepts compared over one mission, best net saving first."""
     placement = placement or default_placement()
     verdicts = [
-        judge(find_actuator(id), pair, find_concept(name), placement, host, against="best-fixed")
+        judge(find_actuator(id), mission, find_concept(name), placement, host, against="best-fixed")
         for id in COMPARED_ACTUATORS
         for name in COMPARED_CONCEPTS
     ]
@@ -115,16 +115,15 @@ def table_5_2(
 
 def verdict_table(verdicts: Sequence[Verdict]) -> ActuatorTable:
     """The table of several verdicts."""
-    pair = verdicts[0].baseline.pair
-    mu = " and ".join(f"{mu:g}" for mu in pair.advance_ratios)
+    mission = verdicts[0].baseline.mission
     notes = (
-        "Angles: change of twist from root to tip between the conditions, magnitudes of segments added; nominal: "
+        "Angles: widest change of twist from root to tip between two legs, magnitudes of segments added; nominal: "
         "whole voltage range.",
         f"All savings against {reference(verdicts[0])} of the concept, costs negative: gross, by the twist within the "
         "actuator's range; stiffness, of another elastic blade at rest; mass; drive. They add up to net, their "
         "bands do not. Ideal: gross with unlimited twist in flight. Sign: that of net.",
     )
-    title = f"Table 5.2  Actuators and concepts compared, advance ratios {mu}"
+    title = f"Table 5.2  Actuators and concepts compared over {mission.words}"
     return table_of(title, [_comparison(verdict) for verdict in verdicts], notes, keys=2)
 
 
@@ -137,7 +136,9 @@ def _comparison(verdict: Verdict) -> Row:
         "needed °": f"{math.degrees(verdict.required):.2f}",
         "nominal °": f"{math.degrees(verdict.attainable):.2f}",
         "needed/nominal": _ratio(verdict),
-        "voltages V": "; ".join(f"{round(a) + 0}→{round(b) + 0}" for a, b in verdict.voltages)
+        "voltages V": "; ".join(
+            "→".join(f"{round(volts) + 0}" for volts in segment) for segment in verdict.voltages
+        )
         or NONE,
         "mass kg": f"{installed.masses.aircraft:.0f}",
         "torsion /rev": f"{installed.frequency:.2f}",
@@ -192,10 +193,10 @@ def pay_table(lines: Sequence[BreakEven]) -> ActuatorTable:
 
 
 def _wanted(even: BreakEven) -> Row:
-    needed, pair, pays = even.requirement, even.pair, even.worthwhile
+    needed, mission, pays = even.requirement, even.mission, even.worthwhile
     return {
-        "rotor": pair.design.aircraft.name,
-        "µ": " and ".join(f"{ratio:g}" for ratio in pair.advance_ratios),
+        "rotor": mission.design.aircraft.name,
+        "µ": ", ".join(f"{leg.advance_ratio:g}" for leg in mission.legs),
         "optima apart °": f"{math.degrees(abs(even.change)):.1f}",
         "ideal kW": _pair_text(even.ideal_saving / 1e3, even.ideal_band / 1e3),
         "sign": sureness(even.ideal_saving, even.ideal_band),

@@ -1,7 +1,7 @@
 """Torque tubes of shape-memory alloy."""
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -110,7 +110,7 @@ class TorqueTube(Actuator):
         return Drive(0.0, tubes * self.hold_power, tubes * self.move_power, self.move_time)
 
     def limits(
-        self, installed: InstalledActuator, swings: Swings, solution: Solution | None
+        self, installed: InstalledActuator, swings: Swings, solutions: Sequence[Solution]
     ) -> tuple[Limit, ...]:
         worst = max((abs(swing) for swing in swings), default=0.0)
         retrofit = installed.host.kind == "retrofit"

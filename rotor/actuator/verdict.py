@@ -16,16 +16,17 @@ from rotor.actuator.kind import Actuator, Drive, InstalledActuator, Limit
 from rotor.actuator.limits import limits
 from rotor.actuator.optimum import (
     Baseline,
-    ConditionPair,
     TwistOptimum,
     baseline,
     best_actuated,
     best_twist,
+    widest_changes,
 )
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.design.design import Design, require_design
 from rotor.optimisation.concepts import Concept, find_concept
 from rotor.optimisation.doubt import difference_doubt
+from rotor.optimisation.mission import Mission, standard_mission
 from rotor.support.arrays import Array
 from rotor.support.units import KILOWATT
 from rotor.trim.analysis import Analysis
@@ -41,7 +42,7 @@ Against = Literal["same-blade", "best-fixed"]
 
 @dataclass(frozen=True, eq=False)
 class Verdict:
-    """One actuator, one concept, one pair of flight conditions. Angles [rad], powers [W], means over the pair.
+    """One actuator, one concept, one mission. Angles [rad], powers [W], means over the mission.
 
     All savings count from one blade, `against`, and add up: gross − stiffness − mass − drive = net (`savings`).
     """
@@ -50,20 +51,20 @@ class Verdict:
     baseline: Baseline
     against: Against
     required_segments: Array
-    """Change of twist between the optima, by segment [rad], (segments,)."""
+    """Widest change of twist between the optima of two legs, by segment [rad], (segments,)."""
     optimum: TwistOptimum
-    """The best twist within the actuator's range, at both conditions."""
+    """The best twist within the actuator's range, on each leg."""
     resting: TwistOptimum
     """The blade with the actuator's stiffness and inertia but no voltage: its own jig twist for a retrofit, else the
     best fixed one. An elastic blade that is softer or stiffer flies with another twist, before anything is driven."""
-    reference_powers: tuple[float, float]
-    """Powers of the blade that savings are counted from, by condition [W]."""
+    reference_powers: tuple[float, ...]
+    """Powers of the blade that savings are counted from, by leg [W]."""
     bare_power: float
     """Mean of the blade at rest with the stiffness and inertia it has without the actuator [W]."""
     free_power: float
     """Mean with unlimited twist in flight on the blade that carries the actuator, without its mass [W]."""
-    loaded_powers: tuple[float, float]
-    """Driven, with the actuator's mass on board, by condition [W]; its drive is not in it."""
+    loaded_powers: tuple[float, ...]
+    """Driven, with the actuator's mass on board, by leg [W]; its drive is not in it."""
     drive: Drive
     doubt: Doubt | None
     """How sure the saving is, before the drive."""
@@ -95,9 +96,8 @@ class Verdict:
 
     @property
     def attained_segments(self) -> Array:
-        """Change of twist between the two conditions at the actuated optimum, by segment [rad]."""
-        first, second = (np.array(swings) for swings in self.optimum.swings)
-        return (second - first) * self.installed.shapes[:, -1]
+        """Widest change of twist between two legs at the actuated optimum, by segment [rad]."""
+        return widest_changes(np.array(self.optimum.swings) * self.installed.shapes[:, -1])
 
     @property
     def attained(self) -> float:
@@ -107,12 +107,12 @@ class Verdict:
     @property
     def reference_power(self) -> float:
         """Power of the baseline blade [W]."""
-        return self.baseline.pair.mean(self.reference_powers)
+        return self.baseline.mission.mean(self.reference_powers)
 
     @property
     def net_power(self) -> float:
         """Power with the actuator's mass on board and its drive [W]."""
-        return self.baseline.pair.mean(self.loaded_powers) + self.drive.hold_power
+        return self.baseline.mission.mean(self.loaded_powers) + self.drive.hold_power
 
     @property
     def net_band(self) -> float | None:
@@ -142,7 +142,7 @@ class Verdict:
     @property
     def mass_cost(self) -> float:
         """Power that carrying the actuator costs [W]."""
-        return self.baseline.pair.mean(self.loaded_powers) - self.optimum.power
+        return self.baseline.mission.mean(self.loaded_powers) - self.optimum.power
 
     @property
     def mass_allowed(self) -> float | None:
@@ -183,11 +183,11 @@ class Verdict:
     @property
     def fuel_saving(self) -> float | None:
         """Fuel saved [kg/s]; None where the engines of the aircraft have no source."""
-        engines = engines_of(self.baseline.pair.design.aircraft)
+        engines = engines_of(self.baseline.mission.design.aircraft)
         if engines is None:
             return None
         pairs = zip(self.reference_powers, self.loaded_powers, strict=True)
-        return self.baseline.pair.mean(
+        return self.baseline.mission.mean(
             engines.flow(before) - engines.flow(after + self.drive.hold_power)
             for before, after in pairs
         )
@@ -224,25 +224,24 @@ class Verdict:
         return self.installed.actuator.provenance.sourced
 
     @property
-    def voltages(self) -> tuple[tuple[float, float], ...]:
-        """Voltage of each segment at both conditions [V]; empty for actuators without voltage."""
+    def voltages(self) -> tuple[tuple[float, ...], ...]:
+        """Voltages of each segment, one for each leg [V]; empty for actuators without voltage."""
         return self.installed.actuator.voltages(self.optimum.swings, self.installed.host)
 
 
 def try_actuator(
     name: str,
     design: Design,
-    mu: tuple[float, float] = (0.0, 0.3),
+    mission: Mission | None = None,
     *,
     concept: str = "linear",
     plies: int = 2,
-    share: float = 0.5,
     new_blade: bool = False,
     against: Against = "same-blade",
 ) -> Verdict:
-    """`judge` by names: could this actuator change the twist between two advance ratios, and would that pay?
+    """`judge` by names: could this actuator change the twist from leg to leg of a mission, and would that pay?
 
-    name: an actuator of `actuators()`, for example `MFC_P1`. share: fraction of time at the second advance ratio.
+    name: an actuator of `actuators()`, for example `MFC_P1`. mission: of this design; None for `standard_mission`.
     new_blade: a blade designed for it, of half the torsional stiffness, in place of a retrofit.
     against: savings count from the `same-blade` without the actuator, or from the concept's best fixed one.
 
@@ -253,10 +252,9 @@ def try_actuator(
             "the actuator's name comes first: rotor.actuator.try_actuator('MFC_P1', design)"
         )
     host = HostBlade("new", 0.5) if new_blade else HostBlade()
-    pair = ConditionPair(require_design(design), mu, share)
     return judge(
         find_actuator(name),
-        pair,
+        mission or standard_mission(require_design(design)),
         find_concept(concept),
         default_placement(plies),
         host,
@@ -266,7 +264,7 @@ def try_actuator(
 
 def judge(
     actuator: Actuator,
-    pair: ConditionPair,
+    mission: Mission,
     concept: Concept,
     placement: Placement,
     host: HostBlade | None = None,
@@ -279,31 +277,31 @@ def judge(
     blade that cannot be built, RuntimeError where nothing trims.
     """
     host = host or HostBlade()
-    base = baseline(pair, concept)
-    rotor, aircraft = pair.design.rotor, pair.design.aircraft
+    base = baseline(mission, concept)
+    rotor, aircraft = mission.design.rotor, mission.design.aircraft
     installed = install(actuator, replace(placement, divisions=base.divisions), host, rotor)
     resting, counted_from = base.fixed, base.fixed.solutions
     near = counted_from
     if host.kind == "retrofit" or against == "same-blade":
         built = [
             solve(design, start).require()
-            for design, start in zip(pair.designs(), near, strict=True)
+            for design, start in zip(mission.designs(), near, strict=True)
         ]
         if host.kind == "retrofit":
-            resting, near = TwistOptimum((), (), (), pair.mean(_totals(built))), built
+            resting, near = TwistOptimum((), (), (), mission.mean(_totals(built))), built
         if against == "same-blade":
             counted_from = built
     bare, bare_power, free = near, resting.power, [best.solutions[0] for best in base.best]
-    if pair.design.elastic:
+    if mission.design.elastic:
         resting = best_actuated(
-            pair, base.concept, installed, scale=0.0, starts=[base.fixed.values], near=near
+            mission, base.concept, installed, scale=0.0, starts=[base.fixed.values], near=near
         )
         near = resting.solutions
         free = [
             best_twist(installed.on(design), base.concept, [best.values], alone=True).solutions[0]
-            for design, best in zip(pair.designs(), base.best, strict=True)
+            for design, best in zip(mission.designs(), base.best, strict=True)
         ]
-    reached = best_actuated(pair, base.concept, installed, starts=[resting.values], near=near)
+    reached = best_actuated(mission, base.concept, installed, starts=[resting.values], near=near)
     required = base.segment_changes(installed.placement.divisions)
     heavy = [
         solve(with_actuator_mass(flown.design, installed), flown).require()
@@ -313,7 +311,9 @@ def judge(
         min(two, key=lambda trim: trim.power.total)
         for two in zip(free, reached.solutions, strict=True)
     ]
-    doubts = _doubts(pair.shares, against, reached.solutions, near, bare, counted_from, heavy, free)
+    doubts = _doubts(
+        mission.shares, against, reached.solutions, near, bare, counted_from, heavy, free
+    )
     asked = tuple(float(x) for x in required / np.maximum(installed.segment_twists, MIN_TWIST))
     return Verdict(
         installed=installed,
@@ -324,14 +324,12 @@ def judge(
         resting=resting,
         reference_powers=_totals(counted_from),
         bare_power=bare_power,
-        free_power=pair.mean(_totals(free)),
+        free_power=mission.mean(_totals(free)),
         loaded_powers=_totals(heavy),
-        drive=actuator.drive(
-            installed, tuple(float(b - a) for a, b in zip(*reached.swings, strict=True))
-        ),
+        drive=actuator.drive(installed, tuple(widest_changes(np.array(reached.swings)).tolist())),
         doubt=doubts.pop("net"),
         parts_doubt=doubts,
-        limits=limits(installed, asked, reached.solutions[-1]),
+        limits=limits(installed, asked, reached.solutions),
         caveats=(*actuator.caveats, *fuel_caveats(aircraft)),
     )
 
@@ -358,9 +356,8 @@ def _doubts(
     }
 
 
-def _totals(solutions: Sequence[Solution]) -> tuple[float, float]:
-    first, second = (solution.power.total for solution in solutions)
-    return first, second
+def _totals(solutions: Sequence[Solution]) -> tuple[float, ...]:
+    return tuple(solution.power.total for solution in solutions)
 
 
 MIN_SHOWN_W = 1.0
@@ -443,14 +440,12 @@ def _reach(verdict: Verdict) -> str:
     """Twist supplied against twist needed."""
     installed = verdict.installed
     what = f"{installed.actuator.name} ({installed.count}, {installed.host.label})"
-    first, second = (flight_text(mu) for mu in verdict.baseline.pair.advance_ratios)
+    legs = verdict.baseline.mission.words
     need, nominal = math.degrees(verdict.required), math.degrees(verdict.attainable)
     if installed.too_weak:
-        return (
-            f"{what} moves 0.00°: far too weak for the {need:.1f}° needed from {first} to {second}."
-        )
+        return f"{what} moves 0.00°: far too weak for the {need:.1f}° needed between {legs}."
     can = "can supply" if verdict.feasible else "cannot supply"
-    return f"{what} {can} the {need:.1f}° needed from {first} to {second} ({nominal:.1f}° nominal)."
+    return f"{what} {can} the {need:.1f}° needed between {legs} ({nominal:.1f}° nominal)."
 
 
 def _savings(verdict: Verdict, unit: tuple[str, float]) -> str:
@@ -488,10 +483,6 @@ def part_words(
     word = sureness(size, band, sourced=verdict.sourced)
     symbol, watts = unit
     return f"{verb} {pair_text(size / watts, band / watts, symbol)}: {word}"
-
-
-def flight_text(advance_ratio: float) -> str:
-    return "hover" if advance_ratio == 0.0 else f"µ {advance_ratio:.2f}"
 
 
 def kilowatt_text(power: float, digits: int = 1) -> str:

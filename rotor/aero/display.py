@@ -55,34 +55,43 @@ def at_display_azimuths(problem: Problem, elements: BladeElements) -> tuple[Prob
     The same two where the trim has as many.
     """
     solved = len(problem.disk.psi)
-    times = -(-(problem.design.models.azimuths or SHOWN_AZIMUTHS) // solved)
+    asked = problem.design.models.azimuths or SHOWN_AZIMUTHS
+    times = math.ceil(asked / solved)
     if times <= 1:
         return problem, elements
     finer = on_azimuths(problem, times * solved)
-    return finer, (_all_round if problem.design.hovering else _between)(finer, elements)
+    if problem.design.hovering:
+        return finer, _repeated(elements, len(finer.disk.psi))
+    return finer, _interpolated(finer, elements)
 
 
-def _all_round(problem: Problem, elements: BladeElements) -> BladeElements:
-    """The elements of a hovering rotor, the same at all azimuths of a problem."""
-    e, torsion, azimuths = elements, elements.torsion, len(problem.disk.psi)
+def _repeated(elements: BladeElements, azimuths: int) -> BladeElements:
+    """The elements of a hovering rotor, the same at so many azimuths."""
 
     def around(field: Array) -> Array:
         return over_azimuths(field[:, 0], azimuths)
 
-    values = {name: around(getattr(e, name)) for name in (*FLOW_FIELDS, *SECTION_FIELDS)}
-    twist = torsion and replace(torsion, twist=around(torsion.twist), moment=around(torsion.moment))
-    return replace(e, **values, beta=np.full(azimuths, e.beta[0]), torsion=twist)
+    names = (*FLOW_FIELDS, *SECTION_FIELDS)
+    values = {name: around(getattr(elements, name)) for name in names}
+    torsion = elements.torsion
+    if torsion is not None:
+        torsion = replace(torsion, twist=around(torsion.twist), moment=around(torsion.moment))
+    beta = np.full(azimuths, elements.beta[0])
+    return replace(elements, **values, beta=beta, torsion=torsion)
 
 
-def _between(problem: Problem, elements: BladeElements) -> BladeElements:
-    """The elements at all azimuths of a problem."""
-    e, torsion, azimuths = elements, problem.torsion, len(problem.disk.psi)
+def _interpolated(problem: Problem, e: BladeElements) -> BladeElements:
+    """The elements in forward flight at the azimuths of a problem: channels are interpolated, sections evaluated."""
+    azimuths = len(problem.disk.psi)
     matrix = resampling(len(e.beta), azimuths)
     fields = np.stack([getattr(e, name) for name in FLOW_FIELDS]) @ matrix
-    rates = None if e.rates is None else e.rates @ matrix
-    f, s, bends = _sections(
-        problem, e, fields[:6] if rates is None else np.concatenate([fields[:6], rates]), matrix
-    )
+    flow = fields[:6]
+    rates = None
+    if e.rates is not None:
+        rates = e.rates @ matrix
+        flow = np.concatenate([flow, rates])
+    f, s, bends = _sections(problem, e, flow, matrix)
+    torsion = problem.torsion
     twist = None
     if e.torsion is not None and torsion is not None:
         around = e.torsion.coordinates @ wave_grid(torsion.functions, azimuths).at
@@ -94,7 +103,10 @@ def _between(problem: Problem, elements: BladeElements) -> BladeElements:
 def _sections(
     problem: Problem, e: BladeElements, flow: Array, matrix: Array
 ) -> tuple[Array, Array, BentState | None]:
-    """Forces and flow of a problem at channels of its azimuths, and there how the blade bends."""
+    """Section forces, section flow, and bending of the blade at the azimuths of a problem.
+
+    flow: channels there; matrix: from the azimuths of the trim to those.
+    """
     bends = None
     if e.bent is not None:
         bends = BentState(e.bent.channels @ matrix, e.bent.lift @ matrix)
@@ -104,7 +116,7 @@ def _sections(
 
 
 def pitch_of_alpha(flow: Any) -> Array:
-    """θ + Δ that gives the angle of attack α = θ + Δ − atan2(U_P, U_T) of a flow at three quarters of the chord.
+    """Pitch plus Δ, by which the angle of attack at three-quarter chord is α = θ + Δ − atan2(U_P, U_T) [rad].
 
     Unlike α it does not run through ±180°. flow: what has `theta`, `alpha`, `u_t` and `u_p`.
     """
@@ -149,7 +161,7 @@ class _ElementFlow:
     """Thrust of an element, to a common factor."""
     margin: Array
     """Of the angle of attack to the static stall angle [rad], negative beyond it."""
-    attached: Array
+    separation_margin: Array
     """Negative where the flow is separated, see `Regions.least_margin`."""
     cd_mach: Array
 
@@ -166,15 +178,19 @@ def regions(disk: Disk, elements: BladeElements) -> Regions:
 
 
 def _as_solved(disk: Disk, elements: BladeElements) -> _ElementFlow:
+    """Elements at the radii of the trim."""
     e = elements
     margin = stall_margins(e.alpha, e.mach, e.u_t, disk.weight, disk.offset, disk.stall)
+    separation_margin = margin
+    if e.unsteady is not None:
+        separation_margin = e.unsteady.separation - STALLED
     return _ElementFlow(
         r=disk.r,
         cells=disk.cells,
         u_t=e.u_t,
         lift=disk.dr[:, None] * e.fz,
         margin=margin,
-        attached=margin if e.unsteady is None else e.unsteady.separation - STALLED,
+        separation_margin=separation_margin,
         cd_mach=e.cd_mach,
     )
 
@@ -192,25 +208,27 @@ def _on_finer_radii(disk: Disk, elements: BladeElements) -> _ElementFlow:
     alpha = np.empty_like(theta)
     angles_of_attack(theta.ravel(), u_t.ravel(), u_p.ravel(), alpha.reshape(-1))
     margin = np.minimum(high - alpha, alpha - low)
-    unsteady = elements.unsteady
+    separation_margin = margin
+    if elements.unsteady is not None:
+        separation_margin = matrix @ elements.unsteady.separation - STALLED
     return _ElementFlow(
         r=matrix @ disk.r,
         cells=cells / elements.u_t.shape[1],
         u_t=u_t,
         lift=lift,
         margin=margin,
-        attached=margin if unsteady is None else matrix @ unsteady.separation - STALLED,
+        separation_margin=separation_margin,
         cd_mach=cd_mach,
     )
 
 
 def _counted(e: _ElementFlow) -> Regions:
-    """The sums over the elements of each region."""
+    """The regions as sums over the elements."""
     reverse = e.u_t < 0.0
-    separated = (e.attached < 0.0) & ~reverse
-    flows = ~separated & ~reverse
-    past_static = (e.margin < 0.0) & flows
-    divergence = (e.cd_mach > DRAG_DIVERGENCE) & flows
+    separated = (e.separation_margin < 0.0) & ~reverse
+    attached = ~separated & ~reverse
+    past_static = (e.margin < 0.0) & attached
+    divergence = (e.cd_mach > DRAG_DIVERGENCE) & attached
 
     def area(region: Booleans) -> float:
         return float(e.cells @ np.count_nonzero(region, axis=1))
@@ -226,7 +244,7 @@ def _counted(e: _ElementFlow) -> Regions:
         past_static_thrust=_part(e.lift, past_static),
         drag_divergence_thrust=_part(e.lift, divergence),
         separated_moment=_part(moment, separated),
-        least_margin=float(e.attached.min(initial=math.inf, where=~reverse)),
+        least_margin=float(e.separation_margin.min(initial=math.inf, where=~reverse)),
     )
 
 
@@ -255,10 +273,13 @@ def _finer_radii(root: float, r: tuple[float, ...]) -> tuple[Array, Array]:
 
     Beyond the first and the last element the lines run on.
     """
-    edges, known = np.linspace(root, 1.0, AREA_RADII + 1), np.array(r)
-    radii, rows = 0.5 * (edges[1:] + edges[:-1]), np.arange(AREA_RADII)
+    known = np.array(r)
+    edges = np.linspace(root, 1.0, AREA_RADII + 1)
+    radii = 0.5 * (edges[1:] + edges[:-1])
+    rows = np.arange(AREA_RADII)
     before = np.clip(np.searchsorted(known, radii) - 1, 0, len(known) - 2)
     share = (radii - known[before]) / np.diff(known)[before]
     matrix = np.zeros((AREA_RADII, len(known)))
-    matrix[rows, before], matrix[rows, before + 1] = 1.0 - share, share
+    matrix[rows, before] = 1.0 - share
+    matrix[rows, before + 1] = share
     return matrix, np.diff(edges**2)

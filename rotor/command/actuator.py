@@ -1,15 +1,16 @@
-"""`actuator`: required and attainable twist between two flight conditions, the net saving, and what would pay."""
+"""`actuator`: required and attainable twist over a mission, the net saving, and what would pay."""
 
 import argparse
 import json
 import math
-from dataclasses import asdict, replace
+import sys
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.optimum import ConditionPair
+from rotor.actuator.optimum import Baseline, TwistOptimum
 from rotor.actuator.pay import BreakEven, break_even, break_even_chart, pay_sentence
 from rotor.actuator.section import HostBlade, Placement, default_placement
 from rotor.actuator.tables import ActuatorTable, pay_table, table_5_1, table_5_2
@@ -22,9 +23,12 @@ from rotor.actuator.verdict import (
     verdict_sentence,
 )
 from rotor.command import common
+from rotor.design.design import Design
 from rotor.dynamics.structure import check_blade
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.mission import Mission, mission_at, mission_from, standard_mission
+from rotor.optimisation.objective import MISSION_COLUMNS
 from rotor.support.assets import SHIPPED_ROTORS
 from rotor.support.chart_svg import svg
 from rotor.support.terminal import wrapped
@@ -44,9 +48,6 @@ def add_parser(commands: Any) -> None:
     )
     parser.add_argument("--division", metavar="R,…", help=common.DIVISION_HELP)
     for flag, value, metavar, words in (
-        ("--from-mu", 0.0, "MU", "advance ratio of the first condition (default hover)"),
-        ("--to-mu", 0.3, "MU", "advance ratio of the second condition (default 0.3)"),
-        ("--share", 0.5, "0…1", "fraction of time in the second condition (default 0.5)"),
         (
             "--stiffness",
             None,
@@ -56,6 +57,13 @@ def add_parser(commands: Any) -> None:
         ("--angle-deg", 45.0, "DEG", "fibre angle to the span (default 45)"),
     ):
         parser.add_argument(flag, type=common.finite, default=value, metavar=metavar, help=words)
+    columns = ",".join(MISSION_COLUMNS)
+    words = (
+        f"CSV file with the columns {columns} (default: hover, climb, cruise, fast; assumed hours)"
+    )
+    parser.add_argument("--mission", metavar="FILE", help=words)
+    for flag in _OLD_PAIR:
+        parser.add_argument(flag, type=common.finite, help=argparse.SUPPRESS)
     blades = ("retrofit", "new")
     parser.add_argument(
         "--blade", choices=blades, default=blades[0], help="existing blade (default) or a new one"
@@ -89,12 +97,10 @@ def run(args: argparse.Namespace) -> int:
         find_actuator(args.actuator),
         find_concept(args.concept, common.parse_division(args.division)),
     )
-    pair = ConditionPair(
-        common.design_from(args, mu=args.from_mu), (args.from_mu, args.to_mu), args.share
-    )
+    # Bad input is reported before anything is computed.
+    mission = _mission(args)
     if args.what_would_pay is None:
-        check_blade(pair.design.aircraft)
-    pair.designs()  # Bad input is reported before anything is computed.
+        check_blade(mission.design.aircraft)
     stiffness = (
         (1.0 if args.blade == "retrofit" else 0.5) if args.stiffness is None else args.stiffness
     )
@@ -106,13 +112,13 @@ def run(args: argparse.Namespace) -> int:
         check_writable(args.plot)
     try:
         if args.what_would_pay is not None:
-            return _run_pay(args, pair)
+            return _run_pay(args, mission)
         if args.table == "5.2":
-            return _show(args, table_5_2(pair, placement=placement, host=host))
-        verdict = judge(actuator, pair, concept, placement, host, against=args.against)
+            return _show(args, table_5_2(mission, placement=placement, host=host))
+        verdict = judge(actuator, mission, concept, placement, host, against=args.against)
     except RuntimeError as error:
         print(
-            json.dumps(failure(args, str(error)), indent=2)
+            json.dumps(failure(args, mission, str(error)), indent=2)
             if args.json
             else f"not converged: {error}"
         )
@@ -122,17 +128,18 @@ def run(args: argparse.Namespace) -> int:
 
 
 def record(verdict: Verdict) -> dict[str, Any]:
-    """The JSON of `actuator --json`. Savings are means over both conditions [W]."""
+    """The JSON of `actuator --json`. Savings are means over the mission [W]."""
     return {
         "status": "converged",
         "message": verdict_sentence(verdict),
         "actuator": verdict.installed.actuator.id,
         "plies": verdict.installed.placement.plies,
         "concept": verdict.baseline.concept.name,
+        "mission": mission_record(verdict.baseline.mission),
         "required_twist_deg": math.degrees(verdict.required),
         "attainable_twist_deg": math.degrees(verdict.attainable),
         "feasible": verdict.feasible,
-        "voltages_v": [list(pair) for pair in verdict.voltages],
+        "voltages_v": [list(segment) for segment in verdict.voltages],
         "added_mass_kg": verdict.installed.masses.aircraft,
         "torsion_frequency_per_rev": verdict.installed.frequency,
         "against": verdict.against,
@@ -153,7 +160,7 @@ def record(verdict: Verdict) -> dict[str, Any]:
     }
 
 
-def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
+def failure(args: argparse.Namespace, mission: Mission, message: str) -> dict[str, Any]:
     """The keys of `record` where nothing trims; unknown values are null."""
     return {
         "status": "not-converged",
@@ -161,6 +168,7 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
         "actuator": args.actuator,
         "plies": args.plies,
         "concept": args.concept,
+        "mission": mission_record(mission),
         **dict.fromkeys(("required_twist_deg", "attainable_twist_deg", "feasible")),
         "voltages_v": [],
         **dict.fromkeys(("added_mass_kg", "torsion_frequency_per_rev")),
@@ -180,21 +188,19 @@ def failure(args: argparse.Namespace, message: str) -> dict[str, Any]:
 def report(verdict: Verdict) -> str:
     installed, base = verdict.installed, verdict.baseline
     masses = installed.masses
-    first, second = (best.power / 1e3 for best in base.best)
-    twists = [
-        common.short_spec(base.concept.twist(best.values).spec())
-        for best in (*base.best, base.fixed)
+    legs = zip(base.mission.legs, base.mission.shares, base.best, strict=True)
+    optima = [
+        f"{leg.name} ({100.0 * share:.3g} % of the time)  {_twist_text(base, best)} ({best.power / 1e3:.1f} kW)"
+        for leg, share, best in legs
     ]
     gross = dict(verdict.savings)["gross"]
     lines = [
         verdict_sentence(verdict),
         wrapped(verdict_details(verdict)),
         "",
-        wrapped(
-            f"optimum at each condition     {twists[0]} ({first:.1f} kW), {twists[1]} ({second:.1f} kW)",
-            " " * 30,
-        ),
-        f"best fixed blade              {twists[2]} (mean {base.fixed.power / 1e3:.1f} kW)",
+        "optimum on each leg",
+        *(f"  {line}" for line in optima),
+        f"best fixed blade              {_twist_text(base, base.fixed)} (mean {base.fixed.power / 1e3:.1f} kW)",
         "",
         f"savings against {reference(verdict)}",
         f"  gross, by its twist         {part_words(verdict, 'gross', gross)}  "
@@ -216,11 +222,10 @@ def report(verdict: Verdict) -> str:
         f"drive             {verdict.drive.slew_power / 1e3:8.2f} kW during a change of "
         f"{verdict.drive.slew_time:.0f} s, {verdict.drive.hold_power / 1e3:.2f} kW to hold",
     ]
-    edges = (base.pair.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
-    for k, (a, b) in enumerate(verdict.voltages):
-        lines.append(
-            f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {a:.0f} V, then {b:.0f} V"
-        )
+    edges = (base.mission.design.rotor.blade.root_cutout, *installed.placement.divisions, 1.0)
+    for k, segment in enumerate(verdict.voltages):
+        volts = ", ".join(f"{volts:.0f} V" for volts in segment)
+        lines.append(f"segment {k + 1}         {edges[k]:.2f}…{edges[k + 1]:.2f} R: {volts}")
     met = (f"{'met     ' if limit.ok else 'EXCEEDED'} {limit.sentence}" for limit in verdict.limits)
     lines += ["", *(wrapped(limit, " " * 9) for limit in met)]
     return "\n".join([*lines, *(wrapped(f"caveat: {caveat}", "  ") for caveat in verdict.caveats)])
@@ -230,11 +235,11 @@ ROTORS = (*SHIPPED_ROTORS, "hart2")
 """Rotors of `--what-would-pay all`."""
 
 
-def _run_pay(args: argparse.Namespace, pair: ConditionPair) -> int:
-    pairs = [pair]
+def _run_pay(args: argparse.Namespace, mission: Mission) -> int:
+    missions = [mission]
     if args.what_would_pay == "all":
-        pairs = [replace(pair, design=make_design(rotor=key)) for key in ROTORS]
-    lines = [break_even(each) for each in pairs]
+        missions = [_mission(args, make_design(rotor=key)) for key in ROTORS]
+    lines = [break_even(each) for each in missions]
     if args.plot is not None:
         write_whole(args.plot, svg(break_even_chart(lines[0])))
     if args.json:
@@ -260,8 +265,8 @@ def pay_record(even: BreakEven) -> dict[str, Any]:
         "drive_w": needed.drive,
     }
     return {
-        "rotor": even.pair.design.aircraft.name,
-        "advance_ratios": list(even.pair.advance_ratios),
+        "rotor": even.mission.design.aircraft.name,
+        "mission": mission_record(even.mission),
         "message": pay_sentence(even),
         "ideal_saving_w": even.ideal_saving,
         "ideal_band_w": even.ideal_band,
@@ -273,6 +278,52 @@ def pay_record(even: BreakEven) -> dict[str, Any]:
             "mass_kg": even.masses.tolist(),
         },
     }
+
+
+def mission_record(mission: Mission) -> dict[str, Any]:
+    """The JSON of a mission: its legs, and whether its hours are assumed."""
+    designs = mission.designs()
+    legs = [
+        {"name": leg.name, "hours": leg.hours, **design.condition.numbers}
+        for leg, design in zip(mission.legs, designs, strict=True)
+    ]
+    return {"legs": legs, "assumed": mission.assumed}
+
+
+_OLD_PAIR = ("--from-mu", "--to-mu", "--share")
+"""Options for a mission of two legs; they are read for one release more, with a warning."""
+
+
+_TABLE_SPEEDS = (0.0, 0.3)
+"""Advance ratios of table 5.2, for equal hours."""
+
+
+def _mission(args: argparse.Namespace, design: Design | None = None) -> Mission:
+    """The mission that is asked for, of the design of the options or of another one."""
+    old = (args.from_mu, args.to_mu, args.share)
+    flown = design or common.design_from(args, mu=0.0)
+    if old == (None, None, None) and args.mission is not None:
+        return mission_from(args.mission, flown)
+    if old == (None, None, None) and args.table == "5.2":
+        return mission_at(flown, _TABLE_SPEEDS)
+    if old == (None, None, None):
+        return standard_mission(flown)
+    if args.mission is not None:
+        raise ValueError("--mission has all legs: leave --from-mu, --to-mu and --share out")
+    start = 0.0 if args.from_mu is None else args.from_mu
+    end = 0.3 if args.to_mu is None else args.to_mu
+    share = 0.5 if args.share is None else args.share
+    mission = mission_at(flown, (start, end), (1.0 - share, share))
+    if design is None:
+        print(
+            "warning: --from-mu, --to-mu and --share end with the next release: use --mission",
+            file=sys.stderr,
+        )
+    return mission
+
+
+def _twist_text(base: Baseline, optimum: TwistOptimum) -> str:
+    return common.short_spec(base.concept.twist(optimum.values).spec())
 
 
 def _show(args: argparse.Namespace, table: ActuatorTable) -> int:

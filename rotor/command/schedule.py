@@ -2,13 +2,16 @@
 
 import argparse
 import sys
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any
 
 from rotor.command import common
 from rotor.command.optimise import named
 from rotor.design.aircraft import in_words, reported_names
+from rotor.design.design import Design
 from rotor.optimisation.concepts import CONCEPTS, Concept, find_concept, on_top
+from rotor.optimisation.mission import standard_mission
 from rotor.optimisation.objective import POWERS, WeightedCondition, read_mission
 from rotor.optimisation.results import Optimum, SearchStatus
 from rotor.optimisation.schedule import Schedule, ScheduleOptimum, SchedulePlan, run_plan
@@ -18,7 +21,6 @@ from rotor.support.units import power_text, power_unit
 from rotor.support.user_input import parse_range
 
 DEFAULT_CONCEPTS = ("linear", "two-segment", "three-segment", "free-form")
-DEFAULT_MU = "0:0.35:0.05"
 _DIVIDED = ("two-segment", "two-segment-two-airfoils")
 
 
@@ -32,7 +34,7 @@ def add_parser(commands: Any) -> None:
         "--division", metavar="R", help="break of two-segment concepts in r/R (default 0.5)"
     )
     where = parser.add_mutually_exclusive_group()
-    words = f"range of advance ratios, equal hours at each (default {DEFAULT_MU})"
+    words = "range of advance ratios, equal hours at each (default: the standard mission)"
     where.add_argument("--mu", dest="range", metavar="A:B:STEP", help=words)
     where.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
     parser.add_argument(
@@ -75,22 +77,25 @@ def plan_from(args: argparse.Namespace) -> SchedulePlan:
     design = common.design_from(args)
     if args.on_top:
         concepts = tuple(on_top(concept, design.twist) for concept in concepts)
-    if args.mission:
-        conditions = read_mission(args.mission, design)
-    else:
-        ratios = sorted(set(parse_range(args.range or DEFAULT_MU)))
-        conditions = tuple(
-            WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios
-        )
-    conditions = tuple(
-        sorted(conditions, key=lambda one: (one.flight.advance_ratio, one.flight.mass))
+    conditions = sorted(
+        _conditions(args, design), key=lambda one: (one.flight.advance_ratio, one.flight.mass)
     )
     limits = common.limits_from(args, design, concepts)
     for concept in concepts:
         limits.bounds_of(concept)
     return SchedulePlan(
-        design, concepts, conditions, args.objective, limits, args.starts, args.seed
+        design, concepts, tuple(conditions), args.objective, limits, args.starts, args.seed
     )
+
+
+def _conditions(args: argparse.Namespace, design: Design) -> Sequence[WeightedCondition]:
+    """The flight conditions that are asked for, with their hours."""
+    if args.mission:
+        return read_mission(args.mission, design)
+    if args.range is None:
+        return standard_mission(design).conditions
+    ratios = sorted(set(parse_range(args.range)))
+    return [WeightedCondition(replace(design.condition, advance_ratio=mu)) for mu in ratios]
 
 
 def record(schedule: Schedule) -> dict[str, Any]:

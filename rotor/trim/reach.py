@@ -62,8 +62,9 @@ def largest(solution: Solution, options: SolverOptions) -> Largest:
     if vortex_ring(design):
         return Largest()
     try:
-        found = _largest_on_stand if design.condition.stand is not None else _largest_in_flight
-        return found(design, solution.freedoms, options)
+        if design.condition.stand is not None:
+            return _largest_on_stand(design, solution.freedoms, options)
+        return _largest_in_flight(design, solution.freedoms, options)
     except _Stopped:
         return Largest()
 
@@ -71,6 +72,7 @@ def largest(solution: Solution, options: SolverOptions) -> Largest:
 def _largest_in_flight(
     design: Design, freedoms: tuple[Freedom, ...], options: SolverOptions
 ) -> Largest:
+    """The largest mass, and above the speed of least power also the largest speed."""
     easy, _ = _mass_steps(design)
     mass = _largest_mass(_Question(CONDITION["mass_kg"].put(design, easy), freedoms, options))
     if mass is not None and mass >= design.condition.mass:
@@ -90,6 +92,7 @@ def _largest_in_flight(
 def _largest_on_stand(
     design: Design, freedoms: tuple[Freedom, ...], options: SolverOptions
 ) -> Largest:
+    """The largest C_T/σ of a test that asks for a thrust; none where it gives the collective."""
     stand = design.condition.stand
     if stand is None or stand.collective is not None:
         return Largest()
@@ -114,7 +117,7 @@ class _Question:
 
     @property
     def tolerances(self) -> SolverOptions:
-        """Those by which hover is refused, and in forward flight few digits."""
+        """Tolerances of the solver on the way: in hover those of a solve, in forward flight looser ones."""
         if self.design.hovering:
             return replace(DEFAULT_OPTIONS, stop=self.options.stop)
         return replace(FEW_DIGITS, max_passes=FOLLOWING_PASSES, stop=self.options.stop)
@@ -171,6 +174,7 @@ def _guess_at_least_power(question: _Question) -> Guess | None:
 
 
 def _mass_follower(question: _Question) -> "_Follower":
+    """Trims of a design at growing mass."""
     mass = CONDITION["mass_kg"]
     return _Follower(question, lambda value: mass.put(question.design, value), mass.high)
 
@@ -263,7 +267,7 @@ def _last_that_counts(follower: _Follower, easy: float, step: float) -> float | 
 
 
 def _first_that_counts(follower: _Follower, easy: float, step: float) -> float | None:
-    """The first value, on whole steps from an easy one, at which a trim is not refused; None as above."""
+    """The first value, on whole steps from an easy one, at which a trim is not refused; None where there is none."""
     value = easy
     while value <= follower.high:
         solution = follower.trim(value)

@@ -21,7 +21,7 @@ from rotor.columns.blade import Freedom
 from rotor.design.design import Design
 from rotor.engine.waves import waves_at
 from rotor.support.arrays import Array, Booleans, ShortRepr
-from rotor.support.markup import group, tag
+from rotor.support.markup import Markup, group, tag
 from rotor.support.table import LEFT, Column, table
 from rotor.support.units import power_unit
 from rotor.support.user_input import shorten
@@ -89,9 +89,9 @@ class DiskFields(OnDisk, ShortRepr):
     elastic_twist: Array | None = None
     """φ, by which the blade twists under its loads [rad], contained in `theta`; None for a rigid blade."""
     unsteady: Unsteady | None = None
-    """What dynamic stall does; None without it."""
+    """State of dynamic stall; None without it."""
     find_apparent: Callable[[], Array] | None = field(default=None, repr=False)
-    """What `apparent` is computed by."""
+    """The function that `apparent` calls; None in steady flow."""
 
     @cached_property
     def apparent(self) -> Array | None:
@@ -156,10 +156,8 @@ class Deflections:
     def at(self, r: Array, psi: float) -> tuple[Array, Array]:
         """Deflection up and forward [m] at stations r/R of a blade at ψ [rad], (stations,) each; 0 inside the root."""
         waves = waves_at(self.up.shape[1], np.array([psi]))[:, 0]
-        up, forward = (
-            np.interp(r, self.r, deflection @ waves, left=0.0)
-            for deflection in (self.up, self.forward)
-        )
+        up = np.interp(r, self.r, self.up @ waves, left=0.0)
+        forward = np.interp(r, self.r, self.forward @ waves, left=0.0)
         return up, forward
 
 
@@ -205,11 +203,11 @@ class Solution:
     elapsed: float
     """[s]"""
     find_shown: Callable[["Solution"], Shown]
-    """What `shown` is worked out by."""
+    """The function that `shown` calls."""
     evaluated: Any = None
     """`Problem` and `BladeElements` on the azimuths of the trim; None: they are made once more for `shown`."""
     start: Guess = field(default_factory=lambda: Guess(TrimState()))
-    """What the next trim may start from."""
+    """The guess from which the next trim may start."""
     before: tuple[Design, Guess] | None = None
     """The design and trim that it was itself started from: a next step in the same direction starts ahead of both."""
     wake_course: WakeCourse | None = None
@@ -230,8 +228,10 @@ class Solution:
         return self.__dict__ | small
 
     def light(self) -> "Solution":
-        """The numbers of this solution alone, at most 50 kB: for many that are kept. What is shown of it is worked out
-        when it is read; trims that start from it take more steps."""
+        """This solution in at most 50 kB, for those who keep many.
+
+        Its fields are computed again when they are read; trims that start from it take more steps.
+        """
         return replace(self, start=replace(self.start, box=None), before=None, evaluated=None)
 
     @cached_property
@@ -297,37 +297,36 @@ class Solution:
         state = f"{self.status.value}: {self.message}"
         if self.caveats:
             state += f" Caveats: {', '.join(caveat.name for caveat in self.caveats)}."
-        power = "power: none, the rotor is not in trim"
-        if self.converged:
-            others = [name for name in ("climb", "damping") if getattr(self.power, name)]
-            parts = ("induced", "profile", "parasite", *others, "tail")
-            values = {part: getattr(self.power, part) for part in ("total", *parts)}
-            symbol, size = power_unit(*values.values())
-            total, *others = (f"{value / size:z.1f}" for value in values.values())
-            power = f"power {total} {symbol}: {', '.join(map(' '.join, zip(parts, others, strict=True)))}"
-        return f"{self.design}\n{state}\n{power}"
+        return f"{self.design}\n{state}\n{self._power_text()}"
+
+    def _power_text(self) -> str:
+        """Power and its parts, as `power 903.2 kW: induced 385.0, profile 308.7, …`."""
+        if not self.converged:
+            return "power: none, the rotor is not in trim"
+        seldom = [name for name in ("climb", "damping") if getattr(self.power, name)]
+        parts = ("induced", "profile", "parasite", *seldom, "tail")
+        powers = {part: getattr(self.power, part) for part in parts}
+        total = self.power.total
+        symbol, size = power_unit(total, *powers.values())
+        listed = ", ".join(f"{part} {power / size:z.1f}" for part, power in powers.items())
+        return f"power {total / size:z.1f} {symbol}: {listed}"
 
     def _repr_html_(self) -> str:
-        state = (
-            f"{self.status.value}: {self.message}",
-            *(f"Caveat: {caveat.sentence}" for caveat in self.caveats),
-        )
-        powers = {
-            name: value
-            for name, value in vars(self.last_power).items()
-            if value and name != "shaft"
-        }
-        symbol, size = power_unit(self.last_power.total)
-        rows = (
-            (name, value / size)
-            for name, value in ({"total": self.last_power.total} | powers).items()
-        )
-        shown = (
-            table((Column("power", LEFT), Column(symbol, "z.1f")), rows).html()
-            if self.converged
-            else None
-        )
-        return group(tag("p", str(self.design)), shown, *(tag("p", words) for words in state))
+        state = [f"{self.status.value}: {self.message}"]
+        state += [f"Caveat: {caveat.sentence}" for caveat in self.caveats]
+        powers = self._power_table() if self.converged else None
+        return group(tag("p", str(self.design)), powers, *(tag("p", words) for words in state))
+
+    def _power_table(self) -> Markup:
+        """The total power and its parts that are not zero."""
+        total = self.last_power.total
+        powers = {"total": total}
+        for name, value in vars(self.last_power).items():
+            if value and name != "shaft":
+                powers[name] = value
+        symbol, size = power_unit(total)
+        rows = [(name, value / size) for name, value in powers.items()]
+        return table((Column("power", LEFT), Column(symbol, "z.1f")), rows).html()
 
     @property
     def converged(self) -> bool:
@@ -382,11 +381,9 @@ class Solution:
     def induced_power_factor(self) -> float | None:
         """κ = C_Pi/(C_T λ0): induced power over that of uniform loading by momentum theory; None without thrust."""
         ideal = self.ct * self.controls.lambda0
-        return (
-            self.last_power.induced / (ideal * self.design.power_unit)
-            if abs(ideal) > _NO_THRUST
-            else None
-        )
+        if abs(ideal) > _NO_THRUST:
+            return self.last_power.induced / (ideal * self.design.power_unit)
+        return None
 
     @property
     def lift_to_drag(self) -> float | None:
@@ -394,11 +391,9 @@ class Solution:
         rotor_power = self.last_power.induced + self.last_power.profile
         if self.design.hovering or rotor_power <= 0.0:
             return None
-        lift = (
-            self.design.condition.load
-            if self.design.condition.stand is None
-            else self.lift_and_drag[0]
-        )
+        lift = self.design.condition.load
+        if self.design.condition.stand is not None:
+            lift = self.lift_and_drag[0]
         return lift * self.design.airspeed / rotor_power
 
     def require(self) -> "Solution":

@@ -16,13 +16,17 @@ _STEPS = 8
 """Steps to either side on which an edge is looked for; stall that comes and goes within one is missed."""
 _FINENESS = 1e-2
 """How near the edge is found, in steps."""
-_MU_STEP, _MASS_STEP, _TWIST_STEP = 0.02, 0.04, 1.0
-"""Steps of the advance ratio [-], of the mass as a part of it, and of a linear twist on top [°/R]."""
+_MU_STEP = 0.02
+"""Step of the advance ratio."""
+_MASS_STEP = 0.04
+"""Step of the mass, as a part of it."""
+_TWIST_STEP = 1.0
+"""Step of a linear twist on top [°/R]."""
 
 _Put = Callable[[Design, float], Design]
-"""A design of which something is larger by a number."""
+"""A function that gives a design with one quantity larger by a number."""
 _Place = tuple[float, Solution]
-"""A change, and the trim there."""
+"""A change of the quantity, and the trim with it."""
 
 
 @dataclass(frozen=True)
@@ -66,21 +70,24 @@ def stall_edges(solution: Solution) -> Generator[None, None, StallEdges]:
 
 
 def _of_condition(name: str) -> _Put:
+    """The change of a quantity of the flight."""
     row = CONDITION[name]
     return lambda design, change: row.put(design, row.of(design) + change)
 
 
 def _twisted(design: Design, change: float) -> Design:
+    """A design with a linear twist [°/R] on top of its own."""
     return design.with_twist(SumTwist(design.twist, LinearTwist.of(change)))
 
 
 def _separated(solution: Solution) -> bool:
+    """Whether some flow is separated."""
     return solution.least_margin < 0.0
 
 
 @dataclass(frozen=True, eq=False)
 class _Way:
-    """A trim, what is changed from it, and in which steps."""
+    """A trim, the quantity that changes from it, and the step in which it does."""
 
     solution: Solution
     put: _Put
@@ -93,6 +100,8 @@ class _Way:
 
 @dataclass(frozen=True, eq=False)
 class _Edge:
+    """The place where separated flow begins or ends."""
+
     change: float
     side: float
     """1 where a larger quantity lies beyond the edge, −1 where a smaller one does."""
@@ -101,6 +110,7 @@ class _Edge:
 
 
 def _attached_range(solution: Solution) -> Generator[None, None, AttachedRange]:
+    """The attached speeds about a trim or, where its flow is separated, those beyond the nearest edge."""
     way = _Way(solution, _of_condition("mu"), _MU_STEP)
     here = solution.design.condition.advance_ratio
     ends = dict[float, float]()
@@ -109,9 +119,10 @@ def _attached_range(solution: Solution) -> Generator[None, None, AttachedRange]:
         if near is None:
             return AttachedRange()
         ends[-near.side] = here + near.change
-        again = yield from _edge_on_side(way, near.side, near.beyond)
-        if again is not None:
-            ends[near.side] = here + again.change
+        # Further on, separated flow may begin again.
+        far = yield from _edge_on_side(way, near.side, near.beyond)
+        if far is not None:
+            ends[near.side] = here + far.change
     else:
         for side in (-1.0, 1.0):
             edge = yield from _edge_on_side(way, side, (0.0, solution))
@@ -154,11 +165,13 @@ def _nearest(way: _Way) -> Generator[None, None, _Edge | None]:
 
 
 def _edge(way: _Way, side: float, inner: _Place, outer: _Place) -> _Edge | None:
+    """The edge between two trims; None where none trims between them."""
     change = _root(way.solution.design, way.put, inner, outer, _FINENESS * way.step)
     return None if change is None else _Edge(change, side, outer)
 
 
 def _trim(put: _Put, design: Design, change: float, near: Solution) -> Solution | None:
+    """The trim of a changed design from a nearby one; None where there is none."""
     try:
         there = solve(put(design, change), near)
     except ValueError:  # Beyond the bounds of the quantity.
@@ -173,7 +186,7 @@ def _root(
     outer: _Place,
     fineness: float,
 ) -> float | None:
-    """Between two trims of which one has separated flow, within `fineness`; None where none trims between them."""
+    """The change at the edge between two trims, within `fineness`; None where none trims between them."""
     known = dict((inner, outer))
 
     def margin(change: float) -> float:

@@ -215,8 +215,8 @@ def _of_the_flight(trim: CaveatInputs) -> dict[str, str]:
         )
     elif installed and design.condition.isa_offset > 0.0 and not trim.on_stand:
         found["engines-of-a-standard-day"] = (
-            f"The engines give {power_text(installed)} at sea level on a standard day. In warmer air they give less, "
-            "which is not counted here."
+            f"The engines give {power_text(installed)} at sea level on a standard day. At altitude and in warmer "
+            "air they give less, which is not counted here."
         )
     if not trim.on_stand and (beyond := _beyond_stops(trim)):
         found["controls"] = f"The trim is beyond the control stops: {', '.join(beyond)}."

@@ -6,6 +6,8 @@ import pytest
 from playwright.sync_api import expect
 from watched import WAIT, Watched
 
+from rotor.optimisation.mission import ASSUMED_HOURS
+
 VERDICT = 4 * WAIT
 """[ms]; four optima and their trims, in a process of low priority."""
 
@@ -80,7 +82,10 @@ def test_one_blade_is_lifted_out_twists_with_the_flight_and_leaves_nothing_behin
     watched.until(lambda: not watched.seen("/rotor/disk/words"))
     page.locator(".rxf-strip").first.wait_for(state="hidden")
     page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
-    labels, bar = page.locator('[data-explorer="labels"]'), page.locator(".rxf-fly-bar input")
+    labels, bar = (
+        page.locator('[data-explorer="labels"]'),
+        page.locator(".rxf-fly-bar input[type=range]"),
+    )
     labels.get_by_text("kg of electronics").wait_for(timeout=VERDICT)
     rest, still = angle(watched), watched.text("actuator-now")
     page.get_by_role("button", name="Actuator by schedule").click()
@@ -122,7 +127,10 @@ def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keep
     page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     names = "as set", "by schedule", "stopped"
     states = {name: page.get_by_role("button", name=f"Actuator {name}") for name in names}
-    labels, bar = page.locator('[data-explorer="labels"]'), page.locator(".rxf-fly-bar input")
+    labels, bar = (
+        page.locator('[data-explorer="labels"]'),
+        page.locator(".rxf-fly-bar input[type=range]"),
+    )
 
     def seen(state: str) -> tuple[str, str]:
         """Tip twist and power, once all say the same of this state."""
@@ -165,6 +173,35 @@ def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keep
     page.goto(page.url)  # As a colleague gets it.
     page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     assert seen("as set") == fast
+
+
+def test_hours_of_a_leg_are_set_on_the_flight_bar(watched: Watched):
+    """Verdict, link, and the mission of Optimise follow; with less than two legs the hours stay as they were."""
+    page = watched.page
+    fields = page.locator("[data-hours]")
+    expect(fields).to_have_count(4)
+    expect(page.locator(".rxf-earns")).to_contain_text("hours assumed", timeout=VERDICT)
+    fields.nth(3).fill("1.5")
+    fields.nth(3).press("Tab")
+    page.wait_for_function("() => RX.state.flight?.hours[3] === 1.5", timeout=VERDICT)
+    page.wait_for_function("() => /[&?]h=0.5,0.25,1,1.5/.test(location.search)", timeout=VERDICT)
+    expect(page.locator(".rxf-earns")).not_to_contain_text("assumed", timeout=VERDICT)
+    page.goto(page.url)  # As a colleague gets it.
+    page.wait_for_function("() => RX.state.flight?.hours[3] === 1.5", timeout=VERDICT)
+    fields.nth(0).fill("2")
+    fields.nth(0).press("Tab")
+    page.wait_for_function("() => /[&?]h=2,0.25,1,1.5/.test(location.search)", timeout=VERDICT)
+    page.get_by_role("button", name="Undo").click()
+    page.wait_for_function("() => /[&?]h=0.5,0.25,1,1.5/.test(location.search)", timeout=VERDICT)
+    for k in range(4):
+        fields.nth(k).fill("0")
+        fields.nth(k).press("Tab")
+    page.wait_for_function("() => RX.state.flight?.hours.filter(Boolean).length === 2")
+    watched.until(lambda: fields.nth(3).input_value() == "1.5")
+    for k, hours in enumerate(ASSUMED_HOURS):  # Other tests have the same page.
+        fields.nth(k).fill(f"{hours:g}")
+        fields.nth(k).press("Tab")
+    page.wait_for_function("() => RX.state.flight?.assumed")
 
 
 @pytest.mark.slow

@@ -43,7 +43,6 @@ from explorer.views.worth import WORTH
 from explorer.workers.call import Call
 from rotor import Design, Solution, doubt
 from rotor.actuator import (
-    FlightLeg,
     HostBlade,
     default_placement,
     effect,
@@ -60,6 +59,7 @@ from rotor.design import Harmonic
 from rotor.design.active_twist import read_harmonics
 from rotor.files.design_file import design_from_record
 from rotor.files.make_design import make_design
+from rotor.optimisation import FlightLeg
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.vibration import with_harmonics
 from rotor.trim.doubt import ESTIMATED, RoundedPair, rounded_pair, sureness
@@ -429,7 +429,9 @@ def test_one_press_makes_it_feasible():
     one = judged("same-blade")
     other = replace(one.installed.placement, plies=moved.plies, chord=moved.chord)
     assert not one.buildable
-    assert judge(one.installed.actuator, one.baseline.pair, find_concept("linear"), other).buildable
+    assert judge(
+        one.installed.actuator, one.baseline.mission, find_concept("linear"), other
+    ).buildable
 
 
 def test_full_voltage_is_the_reach_and_trims_make_that_twist():
@@ -460,7 +462,7 @@ def test_rounded_parts_add_up():
 
 _SIZE = r"[+−]?\d[\d\u2009]*(?:\.\d+)?"
 _WITHIN = re.compile(
-    rf"({_SIZE}) ± ({_SIZE})(?: kW| %)?(?: more| less)?(?: vs. reference)?(?: than [^,]*,|:| \() ?(sure|likely|unclear)"
+    rf"({_SIZE}) ± ({_SIZE})(?: kW| %)?(?: more| less)?(?: vs\. [^:,]*)?(?: than [^,]*,|:| \() ?(sure|likely|unclear)"
 )
 _BETWEEN = re.compile(rf"({_SIZE}) %? ?\(({_SIZE})(?:…| to )({_SIZE})")
 _COLOURED = ("gain", "loss", "good", "bad")

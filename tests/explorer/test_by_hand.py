@@ -18,6 +18,7 @@ from explorer.sharing.share import DESIGN, code_of, with_parameter
 from explorer.widgets.lecture.lecture_panel import LecturePanel
 from explorer.widgets.optimise.hand_game import GAME
 from rotor import make_design
+from rotor.optimisation.mission import ASSUMED_HOURS
 from tests.tools.visitor import Visitor, arrived, part_of, ran
 
 SENT: dict[str, Any] = {
@@ -29,7 +30,7 @@ SENT: dict[str, Any] = {
     "against": "best-fixed", "state": "stopped", "section": [0.8, 90.0], "map_at": [0.2, 0.8], "pull": 0.5,
     "covered": [0.1, 0.2, 0.3, 0.0], "view": "disk", "colours": "Rescale", "lecture": "next",
     "knot": ["2", [None, -5.0]], "dial": [[3, 1.0, 60.0]],
-    "kind": "AFC", "scene": "lost", "seen": True,
+    "kind": "AFC", "hours": [2, 1.5], "scene": "lost", "seen": True,
 }  # fmt: skip
 """A value for each press that has one."""
 BEGUN = "Δ inboard [°/R]"
@@ -298,6 +299,29 @@ def test_a_voltage_is_a_step_of_its_own(app: App):
         await visitor.until(lambda: page.context.inputs().advance_ratio == OPENING.advance_ratio)
 
     visited(app, volts)
+
+
+def test_link_and_undo_have_the_hours_of_the_mission_in_any_mode(app: App):
+    async def set_and_undo(visitor: Visitor, page: Page) -> None:
+        await visitor.press("mode", "optimise")
+        await visitor.press("hours", [0, 2.0])
+        await visitor.until(lambda: "h=2,0.25,1,0.25" in visitor.query)
+        await visitor.press("undo")
+        await visitor.until(lambda: "h=2" not in visitor.query)
+        assert page.actuator.inputs().hours == ASSUMED_HOURS
+        await visitor.press("redo")
+        await visitor.until(lambda: "h=2,0.25,1,0.25" in visitor.query)
+        assert page.context.layout.mode == "optimise"
+
+    visited(app, set_and_undo)
+
+
+def test_an_actuator_of_a_link_leaves_the_hours_of_the_link(app: App):
+    async def opened(visitor: Visitor, page: Page) -> None:
+        assert page.actuator.inputs().hours == (1.0, 1.0, 0.0, 2.0)
+        assert page.actuator.inputs().drives[0] == 50.0
+
+    visited(app, opened, "?actuator=MFC_P1,drive=50&h=1,1,0,2")
 
 
 def test_the_nearest_that_trims_is_what_the_sentence_names_or_is_said_to_be_unknown(app: App):

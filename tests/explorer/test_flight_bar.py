@@ -15,7 +15,10 @@ from explorer.model.actuator_inputs import (
     ActuatorInputs,
     flight_legs,
     flight_of,
+    hours_text,
+    hours_with,
     lean_verdict,
+    read_hours,
     verdict_inputs_of,
 )
 from explorer.model.inputs import Inputs, ViewState
@@ -34,8 +37,9 @@ from explorer.views.flight import (
     position_of,
 )
 from explorer.views.page_state import PageState
-from rotor.actuator.flight import ActuatorFlight, standard_flight
+from rotor.actuator.flight import ActuatorFlight
 from rotor.actuator.verdict import Verdict
+from rotor.optimisation import standard_flight
 from rotor.support.chart import DrawnBand, DrawnLine
 from rotor.trim.doubt import ESTIMATED, sureness
 from tests.actuate import actuate, asked, done, told
@@ -259,3 +263,12 @@ def test_the_three_states_and_the_way_back_to_what_the_hand_had_set(
         for effects in (choose_state(one, "set"), (after_flight(one.hand),)):
             after = done(one, effects)
             assert (after.hand.actuator, after.hand.state) == (actuator, "set")
+
+
+def test_hours_of_a_link_are_read_and_two_legs_always_stay():
+    assert read_hours(hours_text((0.5, 0.25, 0.0, 2.0))) == (0.5, 0.25, 0.0, 2.0)
+    for text in ("", "1,1,1", "1,1,1,fast", "0,0,0,1", "1,1,1,-1", "1,1,1,nan", "1,1,1,100"):
+        with pytest.raises(ValueError, match="is not the hours of 4 legs: write"):
+            read_hours(text)
+    assert hours_with((0.5, 0.25, 1.0, 0.25), 2, 3.0) == (0.5, 0.25, 3.0, 0.25)
+    assert hours_with((0.5, 0.0, 0.0, 0.25), 0, 0.0) == (0.5, 0.0, 0.0, 0.25)

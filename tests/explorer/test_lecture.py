@@ -348,7 +348,7 @@ class TestAnswers:
 
 
 PLACES = {
-    "advance_ratio": ("mu", "cruise_mu", "slow_mu", "least_mu", "to_mu"),
+    "advance_ratio": ("mu", "cruise_mu", "slow_mu", "least_mu"),
     "linear": ("twist_b",),
     "two_inner": ("twist_inner",),
 }

@@ -174,7 +174,7 @@ LAYOUTS: dict[str, list[Any]] = {
     "stiffness": [0.7],
     "concept": ["two-segment", "three-segment", "quadratic"],
     "against": ["best-fixed"],
-    "advance_ratios": [(0.1, 0.3)],
+    "hours": [(0.5, 0.25, 0.0, 2.0)],
     "drives": [(50.0,) * 5, (60.0, 50.0, 60.0, 60.0, 60.0)],
     "crossed": [True],
 }

@@ -24,7 +24,7 @@ from explorer.charts.power_map import (
     refined,
 )
 from explorer.charts.schedule_view import ScheduleProgress
-from explorer.model import search_run as mission
+from explorer.model.actuator_inputs import mission_over
 from explorer.model.inputs import baseline_of
 from explorer.model.search_run import SearchRequest, SearchRun
 from explorer.model.units import AVIATION, SI
@@ -44,6 +44,7 @@ from rotor.optimisation import (
     at_condition,
     run_search,
 )
+from rotor.optimisation.mission import standard_mission
 from rotor.optimisation.results import ParameterBand
 from rotor.optimisation.results import SearchStatus as Status
 from rotor.support.chart import Points
@@ -65,7 +66,7 @@ def no_stop() -> bool:
 
 def begun(starts: int, *reports: object, **asked: Any) -> SearchRun:
     """A search from so many starts, fewer than those of the page, that has reported so much."""
-    search = replace(SearchRequest(**asked).search(quick(), mission.legs), starts=starts)
+    search = replace(SearchRequest(**asked).search(quick(), standard_mission), starts=starts)
     return SearchRun(
         WorkRecord(
             SearchTask(search, baseline_of(quick()), "UH-60A as built"), "running", 0, reports
@@ -192,37 +193,22 @@ class TestSearchRequest:
 
     def test_what_cannot_be_searched_is_a_sentence(self):
         bending = SearchRequest(index=3.0)
-        assert bending.search(make_design(mu=0.3, bending=True), mission.legs).limits.index == 3.0
+        assert (
+            bending.search(make_design(mu=0.3, bending=True), standard_mission).limits.index == 3.0
+        )
         with pytest.raises(ValueError, match="switch Blade bending on"):
-            bending.search(quick(), mission.legs)
+            bending.search(quick(), standard_mission)
         with pytest.raises(ValueError, match="set an advance ratio above 0"):
-            SearchRequest(objective="hover-cruise").search(quick(mu=0.0), mission.legs)
+            SearchRequest(objective="hover-cruise").search(quick(mu=0.0), standard_mission)
 
 
-class TestMission:
-    def test_legs_come_in_order_of_speed_with_their_hours(self):
-        assert mission.mission_of("0.2:2, 0:1,\n0.3") == ((0.0, 1.0), (0.2, 2.0), (0.3, 1.0))
-        assert mission.mission_of("0.1:0, 0.2:1.5,") == ((0.2, 1.5),)  # 0 hours are not flown.
-        legs = mission.legs(quick(), "0.2:2, 0:1")
-        assert [(leg.flight.advance_ratio, leg.hours) for leg in legs] == [(0.0, 1.0), (0.2, 2.0)]
-        assert {leg.flight.mass for leg in legs} == {quick().condition.mass}
-        assert len(mission.legs(quick())) == 6
-
-    @pytest.mark.parametrize(
-        "part",
-        ["fast", "0.5:1", "-0.1:1", "0.2:100", "0.2:-1", "nan:1", "0.2:nan", "0.2:1:2", "0,2"],
-    )
-    def test_what_is_no_leg_is_named_with_the_remedy(self, part: str):
-        said = f"The mission has {part.split(',')[-1]!r}: write each leg as advance ratio 0 to 0.45 and hours 0 to 99"
-        with pytest.raises(ValueError, match=re.escape(said)):
-            mission.mission_of(f"0:1, {part}")
-
-    def test_a_mission_without_hours_or_with_too_many_legs_is_refused(self):
-        for text in ("", " , ", "0.2:0"):
-            with pytest.raises(ValueError, match="no hours"):
-                mission.mission_of(text)
-        with pytest.raises(ValueError, match="has 40 legs: give at most 12"):
-            mission.mission_of("0.2," * 40)
+def test_a_mission_is_searched_over_the_legs_of_the_flight_bar():
+    design = quick(mu=0.2)
+    bar = mission_over(design, (1.0, 0.0, 2.0, 0.5))
+    objective = SearchRequest(objective="mission").wanted(design, lambda _: bar)
+    flown = [(leg.flight.advance_ratio, leg.hours) for leg in objective.conditions]
+    assert flown == [(0.0, 1.0), (0.25, 2.0), (0.33, 0.5)]  # 0 hours are not flown.
+    assert {leg.flight.mass for leg in objective.conditions} == {design.condition.mass}
 
 
 @pytest.fixture(scope="module")

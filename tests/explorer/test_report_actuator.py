@@ -82,7 +82,7 @@ def test_what_cannot_be_judged_is_a_sentence():
 
 def test_units_are_those_of_the_page():
     page = actuator_section(verdict(), AVIATION)
-    assert "hp, mean of hover and µ 0.30" in page
+    assert "hp, mean over hover, climb, cruise and fast (hours assumed)" in page
     assert float(numbers(page)[-1].replace("−", "-")) == pytest.approx(
         -verdict().net_saving / 745.7, abs=0.51
     )

@@ -63,7 +63,7 @@ def test_points_are_what_the_verdicts_say(lined: PageState):
     assert "more" in point.words[0]
     assert (shown.chart.x.label, shown.chart.y.label) == (
         "range of tip twist in flight [°]",
-        "mass of all blades [kg]",
+        "mass on board [kg]",
     )
 
 

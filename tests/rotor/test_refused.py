@@ -330,7 +330,7 @@ COMMANDS = {
     "actuator --actuator MFC_P": "actuator 'MFC_P' is not known; did you mean 'MFC_P2'? use one of MFC_P1",
     "actuator --concept two-segment --division 1.5": "division 1.5 of concept two-segment is outside",
     "actuator --plies 0": "0 plies",
-    "actuator --from-mu 0.3": "both conditions have advance ratio 0.3",
+    "actuator --from-mu 0.3": "the mission has one flight condition",
     "actuator --span 0.2": "active span '0.2' is not understood",
     "actuator --chord 0.5:0.1": "active chord 0.5…0.1",
     "actuator --blade retrofit --stiffness 0.5": "retrofit keeps the blade",

@@ -186,16 +186,17 @@ def _swept(name: str, size: float = 1.0) -> Read:
 
 
 def _unsigned(read: Read) -> Read:
-    """Without the sign, which places write as a word."""
+    """A number without its sign, which places write as a word."""
     return lambda screen: read(screen).lstrip("-")
 
 
 def _undriven(read: Read) -> Read:
-    """Without the sign; not where a drive takes power, which only the page adds to a change."""
+    """A number without its sign; empty where a drive takes power, which only the page adds to a change."""
     return lambda screen: "" if screen.drive else read(screen).lstrip("-")
 
 
 def _exact(record: Any, path: Sequence[str], size: float) -> str:
+    """The number at a path in nested records, with all its digits; empty where it is not there."""
     for name in path:
         record = (record or {}).get(name)
     return "" if record is None else repr(float(record) / size)
@@ -224,7 +225,7 @@ def _index(screen: Screen) -> float | None:
 
 
 def _column(screen: Screen) -> int:
-    """Of the disk's fields, at the azimuth of the section."""
+    """The column of the disk's fields at the azimuth of the section."""
     return round(PSI_DEG / 360.0 * len(screen.solution.disk.psi))
 
 
@@ -262,6 +263,7 @@ def _net_pair(verdict: Verdict) -> tuple[float, float]:
 
 
 def _balance_total(screen: Screen) -> str:
+    """The total of the chart of extra power, without its sign."""
     bars = (screen.frame.get("earns") or {}).get("bars", ())
     return "".join(bar["text"] for bar in bars if bar["total"]).lstrip("+−")
 
@@ -283,8 +285,12 @@ def _pays(screen: Screen) -> str:
 
 def _pair(screen: Screen, *, percent: bool = False) -> tuple[float, float] | None:
     """A change without its sign and its band as they are printed, in kW or in per cent; None where there is none."""
-    values = (_saving, _saving_band) if percent else (_change, _change_band)
-    change, band = (value(screen) for value in values)
+    if percent:
+        change = _saving(screen)
+        band = _saving_band(screen)
+    else:
+        change = _change(screen)
+        band = _change_band(screen)
     if change is None or band is None:
         return None
     pair = rounded_pair(change, band)
@@ -302,18 +308,20 @@ def _of_pair(k: int, *, percent: bool = False) -> Callable[[Screen], float | Non
 
 
 def _change(screen: Screen) -> float | None:
-    """Without its sign [kW]; None where there is none."""
+    """The change of power without its sign [kW]; None where there is none."""
     if screen.band.change is None or screen.band.sureness is None:
         return None
     return abs(screen.band.change + screen.drive) / _KILO
 
 
 def _change_band(screen: Screen) -> float | None:
+    """The band of the change of power [kW]; None where there is none."""
     band = screen.band
     return None if band.sureness is None else (band.change_band or 0.0) / _KILO
 
 
 def _saving(screen: Screen) -> float | None:
+    """The change of power without its sign, in per cent of the reference; None where there is none."""
     band = screen.band
     if band.sureness is None or not band.against:
         return None
@@ -321,6 +329,7 @@ def _saving(screen: Screen) -> float | None:
 
 
 def _saving_band(screen: Screen) -> float | None:
+    """The band of that change in per cent of the reference; None where there is none."""
     return None if screen.band.sureness is None else screen.band.change_band_percent
 
 

@@ -119,7 +119,8 @@ def actuator_sentences(found: Mapping[str, Any]) -> list[str]:
     (word,) = {cost_word(row) for row in (first, best, fixed)}
     return [
         f"None of {len(rows)} combinations of actuator and twist law; {limits}.",
-        f"Added to this blade for hover and µ 0.3, {short_name(first)}, with which the page begins, costs "
+        f"Over a mission of hover, climb, cruise and fast flight (hours assumed), {short_name(first)}, with "
+        f"which the page begins, costs this blade "
         f"{cost_text(first)}, and the best, {short_name(best)}, {cost_text(best)}.",
         f"Against the best fixed twist the best costs {cost_text(fixed)}, "
         f"{-fixed['parts_w']['blade'] / 1e3:.0f} kW of it for this blade's own twist. All are {word}.",

@@ -21,9 +21,13 @@ class ActuatorControls:
     """Widgets, and the charts and texts between them."""
 
     def __init__(
-        self, gui: viser.GuiApi, moved: Callable[[], None], driven: Callable[[], None]
+        self,
+        gui: viser.GuiApi,
+        hours: tuple[float, ...],
+        moved: Callable[[], None],
+        driven: Callable[[], None],
     ) -> None:
-        """`moved`: something changed. `driven`: a hand moved a voltage."""
+        """`hours`: of the mission, at first. `moved`: something changed. `driven`: a hand moved a voltage."""
         self._moved, self._driven = moved, driven
         self._placing = threading.RLock()
         """Held while widgets are read or moved together: nobody reads half of a change, which undo would take apart."""
@@ -34,6 +38,7 @@ class ActuatorControls:
 
         start = ActuatorInputs()
         self._against: Against = start.against
+        self._hours = hours
         form = self.form = WidgetForm(gui, self._heard)
         text("verdict")
         form.menu("actuator", "Actuator", actuator_titles())
@@ -55,12 +60,8 @@ class ActuatorControls:
             form.menu("blade", "Blade type", BLADES, entry="blade_type")
             form.slider("stiffness", Slider("New blade GJ ×", 0.2, 1.5, 0.05), start.stiffness)
             form.box("crossed", "Fibres at −45°", start.crossed)
-        with gui.add_folder("Mission conditions", expand_by_default=False):
             titles = {name: find_concept(name).title for name in CONCEPTS}
             form.menu("concept", "Concept", titles, entry="actuator_concept")
-            form.span(
-                "advance_ratios", "µ from, to", (0.0, 0.4), start.advance_ratios, 0.02, "pair"
-            )
         with gui.add_folder("Reach and limits", expand_by_default=False):
             text("numbers")
             text("limits")
@@ -76,7 +77,7 @@ class ActuatorControls:
         with self._placing:
             values = self.form.values()
         drives = tuple(float(values.pop(name)) for name in DRIVES)
-        return ActuatorInputs(**values, drives=drives, against=self._against)
+        return ActuatorInputs(**values, drives=drives, against=self._against, hours=self._hours)
 
     def place(self, changes: Mapping[str, Any]) -> None:
         """Move widgets: these fields of `ActuatorInputs`."""
@@ -91,6 +92,8 @@ class ActuatorControls:
                         self.form.place(each, round(drive))
                 elif name == "against":
                     self._against = value
+                elif name == "hours":
+                    self._hours = value
                 else:
                     self.form.place(name, value)
         self._moved()

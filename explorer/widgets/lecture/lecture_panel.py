@@ -434,7 +434,7 @@ def _by_two_models(
     found = dict[str, Figure]()
     for name, other in stop.other_model.items():
         if name in values:
-            within = f"wake {other.words(units)}" if on_page else ""
+            within = f"with the wake {other.words(units)}" if on_page else ""
             found[name] = Figure(values[name].value, on_one_line(within))
     return found
 

@@ -73,7 +73,7 @@ class MapPanel:
                 f"{concept.title} has one parameter: a map needs two; choose another concept."
             )
         axes = self._axes(titles)
-        objective = replace(request.wanted(design, self._search.legs), quantity="total")
+        objective = replace(request.wanted(design, self._search.mission), quantity="total")
         values = self._search.optimum_of(design, concept.name) or nearest(concept, design.twist)
         return MapTask(design, concept, objective, axes, values)
 

@@ -8,7 +8,6 @@ from explorer.charts.concept import concept_picture
 from explorer.charts.doubt import twist_ranges
 from explorer.model.inputs import baseline_of, baseline_title, with_optimum
 from explorer.model.search_run import OBJECTIVES, SearchRequest, SearchRun
-from explorer.model.search_run import legs as mission_legs
 from explorer.parts.frame import NoticePart
 from explorer.sharing.game import Game, game_of
 from explorer.sharing.share import Address
@@ -26,7 +25,7 @@ from explorer.workers.solver import SearchTask
 from rotor import Design
 from rotor.design import LinearTwist
 from rotor.design.quantity import Slider
-from rotor.optimisation import CONCEPTS, WeightedCondition
+from rotor.optimisation import CONCEPTS, Mission, standard_mission
 from rotor.optimisation.results import BestTwist, SearchStatus
 from rotor.optimisation.search import best_linear_twist
 from rotor.support.markup import tag
@@ -52,8 +51,8 @@ class OptimisePanel:
     def __init__(self, context: TabContext, address: Address) -> None:
         self._context, self._work, gui, bridge = context, context.work, context.gui, context.bridge
         self.hand = HandGame(context, address)
-        self.legs: Callable[[Design], tuple[WeightedCondition, ...]] = mission_legs
-        """Legs of the mission, for a design; ValueError with one sentence for a mission that is none."""
+        self.mission: Callable[[Design], Mission] = standard_mission
+        """The mission of a design, as the flight bar has it."""
         self._run: SearchRun | None = None
         self._refused = ""
         """Why what was asked for last is no search."""
@@ -136,7 +135,7 @@ class OptimisePanel:
         """A search for the design on the sliders."""
         try:
             design = self._context.inputs().design()
-            task = SearchTask(self.request().search(design, self.legs), *self._reference(design))
+            task = SearchTask(self.request().search(design, self.mission), *self._reference(design))
         except ValueError as error:
             self._refused = str(error)
             self._context.wake()

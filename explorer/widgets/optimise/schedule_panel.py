@@ -7,15 +7,15 @@ import viser
 
 from explorer.charts import schedule_view
 from explorer.charts.schedule_view import ScheduleProgress
-from explorer.model import search_run as mission
 from explorer.model.inputs import with_optimum
 from explorer.text.glossary import hint
+from explorer.views.mission import TEXT as MISSION_TEXT
 from explorer.widgets.context import TabContext
 from explorer.widgets.elements import PanelChart, WorkButtons
 from explorer.widgets.optimise.optimise_panel import OptimisePanel
 from explorer.workers.solver import ScheduleTask
 from rotor import Design
-from rotor.optimisation import SchedulePlan, WeightedCondition
+from rotor.optimisation import SchedulePlan
 from rotor.optimisation.search import STARTS
 from rotor.support.markup import tag
 
@@ -29,23 +29,20 @@ _BEFORE = "Best twist for each leg, and the best fixed blade for all."
 
 class SchedulePanel:
     def __init__(self, context: TabContext, search: OptimisePanel) -> None:
-        """Concept, limits and starts are those that the search is asked for; it gets the mission's legs."""
+        """Concept, limits, starts and mission are those of the search."""
         self._context, self._work, self._request, gui = (
             context,
             context.work,
             search.request,
             context.gui,
         )
-        search.legs = self.legs
+        self._search = search
         self._refused = ""
         """Why what was asked for last is no schedule."""
         self._drawn: object = None
         self._concept = gui.add_html("")
-        self._mission = gui.add_text(
-            "Legs, µ:hours", mission.MISSION, multiline=True, hint=hint("mission")
-        )
-        self._mission.on_update(lambda _: context.wake())
-        self._read = gui.add_html("")
+        mission = gui.add_html("")
+        self.texts = {MISSION_TEXT: partial(setattr, mission, "content")}
         entries, halt = ("schedule", "schedule_stop"), partial(context.work.halt, NAME)
         self._buttons = WorkButtons(
             gui, "Compute schedule", "Stop schedule", entries, self.begin, halt
@@ -59,16 +56,13 @@ class SchedulePanel:
         self._twists, self._savings = PanelChart(gui), PanelChart(gui)
         self._results.on_click(self._result_clicked)
 
-    def legs(self, design: Design) -> tuple[WeightedCondition, ...]:
-        """The mission's legs; ValueError with one sentence for an invalid mission."""
-        return mission.legs(design, self._mission.value)
-
     def begin(self) -> None:
         """The mission, for the concept that the search is asked for."""
         request = self._request()
         try:
             design = self._context.inputs().design()
-            concepts, legs = (request.known_concept(),), self.legs(design)
+            concepts = (request.known_concept(),)
+            legs = self._search.mission(design).conditions
             quantity = "induced" if request.objective == "induced" else "total"
             plan = SchedulePlan(design, concepts, legs, quantity, request.limits(design), STARTS)
             self._refused = ""
@@ -82,9 +76,6 @@ class SchedulePanel:
         """Bring everything that only shows into line."""
         title = self._request().known_concept().title
         self._concept.content = tag("div.rx.rx-dim.rx-small", f"Concept: {title}")
-        self._read.content = tag(
-            "div.rx.rx-dim.rx-small", self._mission_line(), data_explorer="mission"
-        )
         record, units = self._work[NAME], self._context.units
         under_way = record is not None and record.under_way
         kind = "running" if under_way else "idle" if record is None else "done"
@@ -105,16 +96,6 @@ class SchedulePanel:
             self._table.content = schedule_view.table(progress, units)
             self._twists.show(schedule_view.twist_chart(progress, self._twists.y_range))
             self._savings.show(schedule_view.saving_chart(progress, self._savings.y_range))
-
-    def _mission_line(self) -> str:
-        """What the mission is read as; or why it is none."""
-        try:
-            legs = mission.mission_of(self._mission.value)
-        except ValueError as error:
-            return str(error)
-        return (
-            f"{len(legs)} leg{'s' if len(legs) > 1 else ''}, {sum(hours for _, hours in legs):g} h"
-        )
 
     def _result_clicked(self, event: viser.GuiEvent[Any]) -> None:
         record = self._work[NAME]

@@ -104,9 +104,9 @@ class LiftingLineInflow(InflowModel):
     name = "lifting-line"
     title = "Lifting line"
     explanation = (
-        "Each blade is a line of 24 vortex panels with its own wake, which sinks as measured tip vortices did and does "
-        "not roll up: that decides what twist is worth at µ 0.05 to 0.15 (−1.2 to −3.0 % here for −8° to −16°, −4 to "
-        "−5 % rolled up)."
+        "Each blade is a line of 24 vortex panels. Its wake sinks as measured tip vortices did and does not roll up. "
+        "At µ 0.05 to 0.15 this decides what twist is worth: −8° to −16° change power by −1.2 to −3.0 %, and by −4 to "
+        "−5 % with a wake that rolls up."
     )
     load_dependent = True
     fine_tip = True

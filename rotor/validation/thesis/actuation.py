@@ -10,9 +10,9 @@ import numpy as np
 from rotor.actuator import tables as actuator_tables
 from rotor.actuator.catalogue import PiezoPly, actuators_of_kind
 from rotor.actuator.installation import install
-from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.files.make_design import uh60a_rotor
+from rotor.optimisation.mission import mission_at
 from rotor.support.chart import Series
 from rotor.validation.thesis.report import Report, curve, panel, report, table
 from rotor.validation.thesis.runs import CachedFunction, Call, variant
@@ -123,7 +123,7 @@ def table_5_1() -> Report:
 @CachedFunction
 def compared(preset: str) -> actuator_tables.ActuatorTable:
     """Table 5.2 of one preset: four optima a concept, and the reach of six actuators."""
-    return actuator_tables.table_5_2(ConditionPair(variant(preset, mu=SPEEDS[0]), SPEEDS))
+    return actuator_tables.table_5_2(mission_at(variant(preset, mu=SPEEDS[0]), SPEEDS))
 
 
 COMPARED: Call = (compared, ("flight",))

@@ -194,7 +194,7 @@ def test_fibre_strain_from_pull():
     strain = fibre_strain(installed, MFC.material.nu12)
     assert_allclose(strain.centrifugal[0], 0.5 * 285e3 / 1.33e8 * (1.0 - 0.31), rtol=0.25)
     assert_allclose(strain.flap, 0.0, atol=0.0)
-    flown = fibre_strain(installed, MFC.material.nu12, solve(make_design(mu=0.3)).require())
+    flown = fibre_strain(installed, MFC.material.nu12, [solve(make_design(mu=0.3)).require()])
     assert 50e-6 < flown.flap.max() < 400e-6
 
 

@@ -13,14 +13,14 @@ from numpy.testing import assert_allclose
 
 import rotor
 from rotor.actuator.catalogue import find_actuator
-from rotor.actuator.flight import ActuatorFlight, FlightLeg, fly, standard_flight
+from rotor.actuator.flight import ActuatorFlight, fly
 from rotor.actuator.installation import with_actuator_mass
-from rotor.actuator.optimum import ConditionPair
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.actuator.stopped import stopped_designs
 from rotor.actuator.verdict import Verdict, judge
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
+from rotor.optimisation.mission import FlightLeg, mission_at, standard_flight
 from rotor.trim.solve import solve
 
 LEGS = (FlightLeg("hover", 0.0), FlightLeg("climb", 0.15, 5.0), FlightLeg("fast", 0.3))
@@ -33,8 +33,8 @@ def verdict(
     design = make_design(preset=preset)
     coarse = replace(design, models=replace(design.models, elements=16, azimuths=36))
     host = HostBlade() if kind == "retrofit" else HostBlade("new", 0.5)
-    pair = ConditionPair(coarse, (0.0, 0.3))
-    return judge(find_actuator(id), pair, find_concept(concept), default_placement(2), host)
+    mission = mission_at(coarse, (0.0, 0.3))
+    return judge(find_actuator(id), mission, find_concept(concept), default_placement(2), host)
 
 
 @cache
@@ -71,7 +71,7 @@ def test_the_range_is_that_of_the_beam_and_no_twist_lies_beyond_it(kind: str):
 def test_voltages_make_the_reached_twist():
     """By the beam model: zero volts is the zero of the twists."""
     judged = verdict("new", preset="thesis")  # Rigid: the shapes are those of the rotating blade.
-    legs = standard_flight(judged.baseline.pair.design)
+    legs = standard_flight(judged.baseline.mission.design)
     assert not any(leg.climb_speed for leg in legs)  # Its models know level flight only.
     flight = fly(judged, legs)
     for volts, twist in zip(flight.voltages, flight.reached, strict=True):

@@ -18,24 +18,27 @@ from rotor.actuator.catalogue import actuators, engines_of, find_actuator
 from rotor.actuator.installation import change_limit, with_actuator_mass
 from rotor.actuator.optimum import (
     STATIONS,
-    ConditionPair,
     baseline,
     best_actuated,
     best_fixed,
     twisted,
+    widest_changes,
 )
 from rotor.actuator.section import HostBlade, default_placement
 from rotor.actuator.tables import verdict_table
 from rotor.actuator.verdict import Verdict, judge, verdict_details, verdict_sentence
+from rotor.design.design import Design
 from rotor.files.make_design import make_design
 from rotor.optimisation.concepts import find_concept
 from rotor.optimisation.limits import Limits
+from rotor.optimisation.mission import Mission, mission_at, standard_mission
 from rotor.optimisation.search import Search, run_search
 from rotor.trim.doubt import ESTIMATED, rounded_pair, sure_words, sureness
 from rotor.trim.solve import solve
 
 KEYS = [
-    "status", "message", "actuator", "plies", "concept", "required_twist_deg", "attainable_twist_deg", "feasible",
+    "status", "message", "actuator", "plies", "concept", "mission", "required_twist_deg", "attainable_twist_deg",
+    "feasible",
     "voltages_v", "added_mass_kg", "torsion_frequency_per_rev", "against", "ideal_saving_w", "gross_saving_w",
     "stiffness_cost_w", "mass_cost_w", "drive_cost_w", "part_bands_w", "net_saving_w", "net_saving_band_w",
     "fuel_saving_kg_h", "fuel_band_kg_h", "limits", "caveats",
@@ -45,10 +48,15 @@ CONCEPTS = ["linear", pytest.param("two-segment", marks=pytest.mark.slow)]
 
 
 @cache
-def pair() -> ConditionPair:
+def coarse() -> Design:
     design = make_design()
-    coarse = replace(design.models, elements=16, azimuths=36)
-    return ConditionPair(replace(design, models=coarse), (0.0, 0.3))
+    return replace(design, models=replace(design.models, elements=16, azimuths=36))
+
+
+@cache
+def pair() -> Mission:
+    """Two legs, as in table 5.2 of the thesis."""
+    return mission_at(coarse(), (0.0, 0.3))
 
 
 @cache
@@ -214,9 +222,34 @@ def test_required_twist_by_hand():
     assert_allclose(judged.required, abs(second - first) * (1.0 - root), rtol=1e-9)
     assert judged.feasible == (judged.required <= judged.attainable)
     assert (
-        f" the {math.degrees(judged.required):.1f}° needed from hover to µ 0.30 ("
+        f" the {math.degrees(judged.required):.1f}° needed between hover and µ 0.30 ("
         in verdict_details(judged)
     )
+
+
+@pytest.mark.parametrize("kind", ["retrofit", "new"])
+def test_no_two_legs_are_farther_apart_than_the_range(kind: str):
+    """Over four legs, where the optima lie farther apart than a weak ply moves; its voltages are within their range."""
+    host = HostBlade() if kind == "retrofit" else HostBlade("new", 1.0)
+    four = standard_mission(coarse())
+    ply = find_actuator("MFC_P1")
+    judged = judge(ply, four, find_concept("linear"), default_placement(1), host)
+    swings = np.array(judged.optimum.swings)[:, 0]
+    assert judged.required > 2.0 * judged.attainable
+    assert np.ptp(swings) == pytest.approx(1.0 if kind == "new" else np.ptp(swings), abs=1e-6)
+    assert np.ptp(swings) <= 1.0 + 1e-6
+    assert len(judged.voltages[0]) == len(four.legs)
+    assert min(judged.voltages[0]) >= -500.0 - 1e-3
+    assert max(judged.voltages[0]) <= 1500.0 + 1e-3
+    powers = [solve(flown.design).power.total for flown in judged.optimum.solutions]
+    assert_allclose(judged.optimum.power, four.mean(powers), rtol=1e-6)
+    assert judged.gross_saving <= judged.ideal_saving
+
+
+def test_the_widest_change_is_from_the_earlier_to_the_later_leg():
+    values = np.array([[0.0, 3.0], [2.0, -1.0], [-1.0, 2.0]])
+    assert_allclose(widest_changes(values), [-3.0, -4.0])
+    assert_allclose(widest_changes(values[:2]), values[1] - values[0])
 
 
 def without_band(sentence: str) -> str:
@@ -319,10 +352,23 @@ def test_table_of_verdicts():
 
 @pytest.mark.slow
 def test_command_json(answer: Callable[..., Any]):
-    found = answer("actuator", "--actuator", "AFC", "--plies", "1", "--to-mu", "0.25")
+    found = answer("actuator", "--actuator", "AFC", "--plies", "1")
     assert (list(found), found["actuator"]) == (KEYS, "AFC")
+    assert [leg["name"] for leg in found["mission"]["legs"]] == ["hover", "climb", "cruise", "fast"]
+    assert found["mission"]["assumed"]
     assert any("from memory" in caveat for caveat in found["caveats"])
     assert found["net_saving_w"] < found["gross_saving_w"]
+
+
+def test_options_of_the_two_legs_of_before_are_read_with_a_warning(
+    capsys: pytest.CaptureFixture[str],
+):
+    flags = "--json --actuator AFC --inflow uniform --elements 12 --azimuths 24 --to-mu 0.25"
+    assert main(["actuator", *flags.split()]) == 0
+    out, err = capsys.readouterr()
+    legs = json.loads(out)["mission"]["legs"]
+    assert [(leg["mu"], leg["hours"]) for leg in legs] == [(0.0, 0.5), (0.25, 0.5)]
+    assert "--from-mu, --to-mu and --share end with the next release: use --mission" in err
 
 
 def test_table_5_1_as_text_and_json(printed: Callable[..., str], answer: Callable[..., Any]):

@@ -13,7 +13,7 @@ from numpy.testing import assert_allclose
 
 from rotor import make_design, solve
 from rotor.actuator import try_actuator
-from rotor.actuator.optimum import ConditionPair, best_actuated
+from rotor.actuator.optimum import best_actuated
 from rotor.actuator.pay import (
     WANTED_SHARE,
     BreakEven,
@@ -25,32 +25,28 @@ from rotor.actuator.pay import (
 from rotor.actuator.tables import pay_table
 from rotor.design import LinearTwist
 from rotor.optimisation.doubt import difference_doubt
+from rotor.optimisation.mission import Mission, mission_at, standard_mission
 
 
-def pair(rotor: str = "uh60a") -> ConditionPair:
-    return ConditionPair(
-        make_design(rotor=rotor, inflow="drees", elements=16, azimuths=36), (0.0, 0.3)
-    )
+def mission(rotor: str = "uh60a") -> Mission:
+    design = make_design(rotor=rotor, inflow="drees", elements=16, azimuths=36)
+    # The standard mission, and one of two legs.
+    return standard_mission(design) if rotor == "uh60a" else mission_at(design, (0.0, 0.3))
 
 
 @cache
 def line(rotor: str = "uh60a") -> BreakEven:
-    return break_even(pair(rotor))
+    return break_even(mission(rotor))
 
 
 def flown(even: BreakEven, k: int, mass: float) -> float:
     """Mean power at point k with a mass on the blades, by trims from nothing."""
-    powers: list[float] = []
-    span = 1.0 - even.pair.design.rotor.blade.root_cutout
-    for design, part in zip(
-        even.pair.designs(), (0.0, math.copysign(even.twists[k] / span, even.change)), strict=True
-    ):
-        powers.append(
-            solve(
-                with_mass(replace(design, twist=LinearTwist(even.rates[k] + part)), mass)
-            ).power.total
-        )
-    return float(np.mean(powers))
+    span = 1.0 - even.mission.design.rotor.blade.root_cutout
+    assert np.ptp(even.rates[k]) * span == pytest.approx(even.twists[k], abs=2e-5)
+    return even.mission.mean(
+        solve(with_mass(replace(design, twist=LinearTwist(rate)), mass)).power.total
+        for design, rate in zip(even.mission.designs(), even.rates[k].tolist(), strict=True)
+    )
 
 
 @pytest.mark.parametrize("rotor", ["uh60a", "s61"])
@@ -82,17 +78,20 @@ def test_another_stroke_of_an_actuator_counts_as_its_verdict_counts():
         twice = replace(judged.installed, shapes=2.0 * judged.installed.shapes)
         twice = replace(twice, rest_shapes=2.0 * twice.rest_shapes)
         found = best_actuated(
-            judged.baseline.pair, judged.baseline.concept, twice, starts=[judged.resting.values]
+            judged.baseline.mission, judged.baseline.concept, twice, starts=[judged.resting.values]
         )
         assert other.net(2.0 * own, 0.0) == pytest.approx(
             judged.reference_power - found.power, abs=20.0
         )
-        fixed, built = judged.baseline.fixed.solutions, map(solve, judged.baseline.pair.designs())
+        fixed, built = (
+            judged.baseline.fixed.solutions,
+            map(solve, judged.baseline.mission.designs()),
+        )
         from_trims = fixed if against == "best-fixed" else tuple(built)
-        exact = difference_doubt(judged.baseline.pair.shares, found.solutions, from_trims)
+        exact = difference_doubt(judged.baseline.mission.shares, found.solutions, from_trims)
         assert other.band(2.0 * own, 0.0) == pytest.approx(exact and exact.change_band, rel=0.01)
         still = difference_doubt(
-            judged.baseline.pair.shares, judged.resting.solutions or from_trims, from_trims
+            judged.baseline.mission.shares, judged.resting.solutions or from_trims, from_trims
         )
         assert other.band(0.0, 0.0) == pytest.approx(still and still.change_band, rel=0.01, abs=1.0)
         paid = 0.5 * float(other.saved[0] + other.saved[-1]) / other.per_kg
@@ -106,11 +105,12 @@ def test_mass_costs_what_momentum_theory_says():
     """ΔP/P_i ≈ 1.5 Δm/m, and a little for profile and tail."""
     even = line()
     solutions = [
-        solve(replace(design, twist=LinearTwist(even.rates[8]))) for design in even.pair.designs()
+        solve(replace(design, twist=LinearTwist(rate)))
+        for design, rate in zip(even.mission.designs(), even.rates[8].tolist(), strict=True)
     ]
-    induced = float(np.mean([solution.power.induced for solution in solutions]))
+    induced = even.mission.mean(solution.power.induced for solution in solutions)
     mass = float(even.masses[-1])
-    expected = 1.5 * induced * mass / even.pair.design.condition.mass
+    expected = 1.5 * induced * mass / even.mission.design.condition.mass
     assert 1.0 < even.cost(mass) / expected < 1.6
     assert even.cost(2.0 * mass) == pytest.approx(2.0 * even.cost(mass), rel=0.1)
 

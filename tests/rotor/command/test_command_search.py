@@ -11,6 +11,8 @@ import pytest
 from numpy.testing import assert_allclose
 
 import rotor.command.optimise as command
+from rotor import make_design
+from rotor.optimisation import standard_mission
 from rotor.optimisation.results import Progress
 from tests.solved import SAME
 
@@ -145,6 +147,19 @@ def test_ctrl_c_prints_the_best_so_far(answer: Answer, monkeypatch: pytest.Monke
     assert signal.getsignal(signal.SIGINT) is before
     assert (found["status"], found["power_w"]) == ("stopped", heard[-1])
     assert found["twist"].startswith("segments:")
+
+
+def test_a_schedule_flies_the_standard_mission_unless_another_is_given(answer: Answer):
+    flags = "--inflow uniform --elements 12 --azimuths 24 --concept linear --starts 1 --processes 1"
+    found = answer("schedule", *flags.split())
+    mission = standard_mission(make_design())
+    assert [
+        (condition["mu"], condition["climb_m_s"], condition["hours"])
+        for condition in found["conditions"]
+    ] == [
+        (flown.flight.advance_ratio, flown.flight.climb_speed, flown.hours)
+        for flown in sorted(mission.conditions, key=lambda one: one.flight.advance_ratio)
+    ]
 
 
 def test_ctrl_c_on_a_schedule_prints_the_results_so_far(

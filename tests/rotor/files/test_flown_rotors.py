@@ -41,7 +41,7 @@ def test_more_power_than_the_engines_give_is_a_caveat():
     assert f"need {1e-3 * fast.power.total:.0f} kW; the engines give 92 kW" in caveat.sentence
     hot = solve(make_design(rotor="r22", speed_kt=60.0, isa_offset_c=20)).require()
     (caveat,) = [one for one in hot.caveats if one.name == "engines-of-a-standard-day"]
-    assert "In warmer air they give less, which is not counted" in caveat.sentence
+    assert "At altitude and in warmer air they give less, which is not counted" in caveat.sentence
 
 
 def test_stops_of_the_uh60a_follow_from_its_mixer():

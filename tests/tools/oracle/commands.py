@@ -185,9 +185,9 @@ STUDIES = (
 ACTUATORS = (
     f"actuator {COARSE}",
     f"actuator --json {COARSE}",
-    f"actuator --actuator MFC_P1 --plies 4 --to-mu 0.3 --concept two-segment --division 0.5 {COARSE}",
+    f"actuator --actuator MFC_P1 --plies 4 --concept two-segment --division 0.5 {COARSE}",
     f"actuator --blade new --stiffness 0.5 --angle-deg 40 --span 0.3:0.9 --chord 0.1:0.7 {COARSE}",
-    f"actuator --against best-fixed --from-mu 0.1 --share 0.7 {COARSE}",
+    f"actuator --against best-fixed --mission mission.csv {COARSE}",
     f"actuator --rotor bo105 {COARSE}",
     "actuator --table 5.1",
     "actuator --table 5.1 --json",

@@ -61,7 +61,7 @@ ACTUATED: Mapping[str, Mapping[str, Any]] = {
     "on stage": {"actuator": {"drives": DRIVEN}, "on_stage": True},
     "supposed": {"on_stage": True, "place": (4.0, 12.0)},
     "flown": {"flown": 2.5, "actuator": {"drives": DRIVEN}},
-    "equal speeds": {"actuator": {"advance_ratios": (0.3, 0.3)}},
+    "two legs": {"actuator": {"hours": (1.0, 0.0, 0.0, 1.0)}},
 }
 """What the hand has set in Actuate, by what it shows; `actuator`: fields of `ActuatorInputs`."""
 HARMONICS = ((3, 1.0, 120.0), (4, 0.3, 0.0))
