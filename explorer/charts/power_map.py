@@ -14,7 +14,7 @@ from explorer.colours import NOW, colour_map, css
 from explorer.model.units import Units, number
 from explorer.picture.disk_image import encode_png
 from explorer.text.readout import total_words
-from explorer.workers.solver import MapTask
+from explorer.workers.solver import MapLevel, MapTask
 from rotor import Design
 from rotor.design import TwistLaw
 from rotor.optimisation import Concept, Parameter, nearest
@@ -41,11 +41,13 @@ _NEAR = 1e-3
 class PowerMap:
     task: MapTask
     powers: Array
-    """[W], (rows along y, columns along x); NaN where a design does not trim."""
+    """[W], (rows along y, columns along x); NaN where a design does not trim, or is not computed yet."""
     values: tuple[tuple[tuple[float, ...], ...], ...]
     """All parameters of each point."""
     lowest: tuple[float, tuple[float, ...]]
     """The least power [W], between the points too, and all parameters there."""
+    whole: bool = True
+    """Whether all points are computed: else the least is that of those which are."""
 
     @property
     def parameters(self) -> tuple[Parameter, Parameter]:
@@ -69,6 +71,23 @@ class PowerMap:
         n = len(self.powers) - 1
         task, values = self.task, self.values[round(y * n)][round(x * n)]
         return task.concept.apply(task.design, task.place(x, y, values))
+
+
+def map_of(task: MapTask, levels: Sequence[MapLevel]) -> PowerMap | None:
+    """The map as far as it is computed, from all levels that were told; None while no design trims.
+
+    Rows of a finer grid that are not computed yet are those of the coarser one, drawn between its points.
+    """
+    last = levels[-1]
+    power, values = last.least
+    if power is None:
+        return None
+    powers = np.array(last.powers, dtype=float)
+    coarser = [level for level in levels if level.whole and len(level.powers) < len(powers)]
+    if coarser and not last.whole:
+        between = refined(np.array(coarser[-1].powers, dtype=float), len(powers), len(powers))
+        powers[last.rows :] = between[last.rows :]
+    return PowerMap(task, powers, last.values, (power, values), last.whole)
 
 
 def default_axes(concept: Concept) -> tuple[int, int]:
@@ -97,7 +116,7 @@ def rail_name(parameter: Parameter) -> str:
 
 
 def least_words(drawn: PowerMap, units: Units) -> str:
-    """The least with all its parameters, and whether the map ends there."""
+    """The least with all its parameters, whether the map ends there, and whether others are still computed."""
 
     def at(parameter: Parameter, value: float) -> str:
         shown = number(parameter.shown(value), 1 if parameter.angular else 2)
@@ -114,14 +133,15 @@ def least_words(drawn: PowerMap, units: Units) -> str:
         if ends
         else ""
     )
-    return f"Least {total_words(drawn.least[2], units)} at {best}.{beyond}"
+    so_far = "" if drawn.whole else " so far"
+    return f"Least{so_far} {total_words(drawn.least[2], units)} at {best}.{beyond}"
 
 
 def refined(powers: Array, wide: int, high: int) -> Array:
     """Smooth between grid points, (high, wide), first row low; straight where some do not trim, NaN next to those."""
     n = len(powers) - 1
     row, column = np.linspace(0.0, n, high), np.linspace(0.0, n, wide)
-    degree = 3 if np.isfinite(powers).all() else 1
+    degree = min(3, n) if np.isfinite(powers).all() else 1
     known = np.where(np.isfinite(powers), powers, 1e9)
     grid = np.arange(n + 1.0)
     values = RectBivariateSpline(grid, grid, known, kx=degree, ky=degree)(row, column)

@@ -5,7 +5,7 @@ Tasks are values that can be pickled. Nothing here imports viser.
 
 import math
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import reduce
 from typing import Any
@@ -144,12 +144,16 @@ class MapTask:
     """Intervals along each axis, each a multiple of the one before."""
 
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> bool:
-        """Reports the part done, 0…1, after each row, and a `MapLevel` for each grid; True when all were done."""
+        """Reports the part done, 0…1, and a `MapLevel` after each row; True when all were done.
+
+        The last level of a grid has the least between its points, others the lowest of the points.
+        """
         known: dict[tuple[int, int], Lowest] = {}
         history, finest = TrimHistory(), self.steps[-1]
         several = len(self.values) > len(self.axes)
         # Where a grid holds every parameter its trims have no slopes, which the search for the least needs.
         sloped = history if several else TrimHistory()
+        least: Lowest = None, self.values
         for steps in self.steps:
             every = range(0, finest + 1, finest // steps)
             for row in every:
@@ -173,20 +177,24 @@ class MapTask:
                 )
                 known.update(zip(cells, map(_lower, found, across), strict=True))
                 tell(len(known) / (finest + 1) ** 2)
-            grid = [[known[row, column] for column in every] for row in every]
-            powers = tuple(tuple(power for power, _ in cells) for cells in grid)
-            power, values = reduce(_lower, known.values())
-            least = (
-                (power, values)
-                if power is None
-                else self._least([values], sloped, (), 0.02 * _UNSEEN)[0]
-            )
-            tell(
-                MapLevel(
-                    powers, tuple(tuple(values for _, values in cells) for cells in grid), least
-                )
-            )
+                least = reduce(_lower, known.values(), least)
+                if row == finest and least[0] is not None:
+                    least = self._least([least[1]], sloped, (), 0.02 * _UNSEEN)[0]
+                tell(self._level(known, every, row, least))
         return True
+
+    def _level(
+        self, known: Mapping[tuple[int, int], Lowest], every: range, last: int, least: Lowest
+    ) -> "MapLevel":
+        """The grid of every so many rows and columns, computed to the `last` row."""
+        not_known: Lowest = None, self.values
+        grid = [[known.get((row, column), not_known) for column in every] for row in every]
+        return MapLevel(
+            powers=tuple(tuple(power for power, _ in cells) for cells in grid),
+            values=tuple(tuple(values for _, values in cells) for cells in grid),
+            least=least,
+            rows=every.index(last) + 1,
+        )
 
     def _least(
         self,
@@ -244,11 +252,18 @@ class MapLevel:
     """A square grid, rows along y from low to high."""
 
     powers: tuple[tuple[float | None, ...], ...]
-    """[W]; None where a design does not trim."""
+    """[W]; None where a design does not trim, or is not computed yet."""
     values: tuple[tuple[tuple[float, ...], ...], ...]
     """All parameters of each point."""
     least: Lowest
-    """Between the points too, from the lowest of them."""
+    """Of the whole grid between the points too, from the lowest of them; before that the lowest."""
+    rows: int
+    """How many rows are computed, from the lowest."""
+
+    @property
+    def whole(self) -> bool:
+        """Whether all rows are computed."""
+        return self.rows == len(self.powers)
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from explorer.charts.power_map import (
     default_axes,
     drawing,
     least_words,
+    map_of,
     place_on,
     refined,
 )
@@ -212,7 +213,8 @@ def test_a_mission_is_searched_over_the_legs_of_the_flight_bar():
 
 
 @pytest.fixture(scope="module")
-def levels() -> tuple[MapTask, list[MapLevel]]:
+def reports() -> tuple[MapTask, list[MapLevel]]:
+    """A map, and what it tells after each row."""
     design, concept = quick(), CONCEPTS["two-segment-free"]
     task = MapTask(
         design, concept, at_condition(design), default_axes(concept), (-0.2, -0.15, 0.5), (2, 4)
@@ -223,6 +225,13 @@ def levels() -> tuple[MapTask, list[MapLevel]]:
     assert done == sorted(done)
     assert done[-1] == 1.0
     return task, [each for each in told if isinstance(each, MapLevel)]
+
+
+@pytest.fixture(scope="module")
+def levels(reports: tuple[MapTask, list[MapLevel]]) -> tuple[MapTask, list[MapLevel]]:
+    """A map, and its whole grids."""
+    task, told = reports
+    return task, [each for each in told if each.whole]
 
 
 @pytest.fixture(scope="module")
@@ -243,6 +252,32 @@ class TestMap:
             np.array(coarse.powers, dtype=float)
         )
         assert not task.run(lambda item: None, lambda: True)  # Stopped between two rows.
+
+    def test_it_is_drawn_as_its_rows_come(self, reports: tuple[MapTask, list[MapLevel]]):
+        """Rows not known yet are blank, in the finer grid those of the coarse one; the least only falls."""
+        task, told = reports
+        assert [(level.rows, len(level.powers)) for level in told] == [
+            *((row, 3) for row in (1, 2, 3)),
+            *((row, 5) for row in (1, 2, 3, 4, 5)),
+        ]
+        least = [level.least[0] for level in told]
+        assert least == sorted(least, key=lambda power: -power)
+        first = map_of(task, told[:2])
+        assert first is not None
+        assert np.isfinite(first.powers[:2]).all()
+        assert np.isnan(first.powers[2]).all()
+        assert least_words(first, SI).startswith("Least so far ")
+        ET.fromstring(drawing(first, None))
+        finer = map_of(task, told[:5])
+        assert finer is not None
+        assert np.isfinite(finer.powers).all()
+        coarse = np.array(told[2].powers, dtype=float)
+        assert finer.powers[2::2, ::2] == pytest.approx(coarse[1:])
+        assert finer.powers[0] == pytest.approx(np.array(told[-1].powers[0], dtype=float))
+        last = map_of(task, told)
+        assert last is not None
+        assert last.whole
+        assert last.powers == pytest.approx(np.array(told[-1].powers, dtype=float))
 
     @pytest.mark.parametrize("cell", [(1, 2), (3, 1), (0, 4)])
     def test_each_point_is_the_least_over_what_is_held(

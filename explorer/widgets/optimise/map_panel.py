@@ -2,9 +2,14 @@
 
 from dataclasses import replace
 
-import numpy as np
-
-from explorer.charts.power_map import PowerMap, default_axes, drawing, least_words, rail_name
+from explorer.charts.power_map import (
+    PowerMap,
+    default_axes,
+    drawing,
+    least_words,
+    map_of,
+    rail_name,
+)
 from explorer.model.inputs import with_optimum
 from explorer.parts.presses import MapPress
 from explorer.text.glossary import hint
@@ -32,6 +37,8 @@ class MapPanel:
         self._context, self._work, self._search, gui = context, context.work, search, context.gui
         self.map: PowerMap | None = None
         """The last with a design that trims."""
+        self._level: MapLevel | None = None
+        """What of the computation is drawn."""
         self._refused = ""
         """Why what was asked for last is no map."""
         self._offered: tuple[str, ...] = ()
@@ -141,18 +148,14 @@ class MapPanel:
             else "No map"
         )
         if levels:
-            grid = np.array(levels[-1].powers, dtype=float)
-            conditions = record.task.objective.conditions
-            power, values = levels[-1].least
-            if power is not None:
-                if (
-                    self.map is None
-                    or self.map.task is not record.task
-                    or len(self.map.powers) != len(grid)
-                ):
-                    self.map = PowerMap(record.task, grid, levels[-1].values, (power, values))
+            last = levels[-1]
+            if last is not self._level:
+                self._level = last
+                self.map = map_of(record.task, levels) or self.map
+            if last.least[0] is not None:
+                conditions = record.task.objective.conditions
                 mu = conditions[0].flight.advance_ratio
                 where = f"at µ {mu:g}" if len(conditions) == 1 else "mean of the legs"
-                line = f"{len(grid)} × {len(grid)} points, {where}"
+                line = f"{last.rows} × {len(last.powers)} points, {where}"
         ended = {"late": "; time is up.", "stopped": "; stopped."}.get(record.state, "")
         return record.sentence or line + ended

@@ -163,8 +163,10 @@ def draw_map(record: Record, name: str) -> None:
 
 
 def map_levels(reports: Sequence[Any]) -> list[Any]:
-    """The grids among what a task reports; the other reports are how much of it is done."""
-    return [report for report in reports if hasattr(report, "powers")]
+    """The whole grids among what a task reports; the other reports are how much of it is done."""
+    return [
+        report for report in reports if hasattr(report, "powers") and getattr(report, "whole", True)
+    ]
 
 
 def search_schedule(record: Record) -> None:
