@@ -33,7 +33,7 @@ def notice(now: PageState) -> dict[str, Any]:
         link = (
             []
             if game.best is game.start
-            else [("game_link", f"I reached {total_words(game.best.power.total, units)}")]
+            else [("game_link", f"Copy link: I reached {total_words(game.best.power.total, units)}")]
         )
         actions = [*link, ("game_take", "Take it"), ("game_end", "End")]
         sentence = comparison(state.solution, game.least, band, units)

@@ -241,6 +241,8 @@ def test_a_game_is_played_by_its_link(app: App):
         assert standing.best.design == page.context.inputs().design()
         assert standing.least.power.total < standing.best.power.total < standing.start.power.total
         assert visitor.frame["notice"]["text"].startswith("Least with these sliders")
+        (link, *_) = visitor.frame["notice"]["actions"]
+        assert link[1].startswith("Copy link: I reached ")
         await visitor.press("game_take")
         await visitor.idle(wholly=False)
         assert page.context.inputs().design().twist == least.twist

@@ -61,7 +61,10 @@ class HandGame:
         )
         if not (least.converged and start.converged and to_beat.converged):
             return
-        self._best = min(self._best or start, tried, key=lambda one: one.power.total)
+        self._best = self._best or start
+        # The start solved again may differ by rounding, and is no try.
+        if tried.design != start.design and tried.power.total < self._best.power.total:
+            self._best = tried
         self.standing = Standing(game, least, start, to_beat if game.score else None, self._best)
 
     def _send(self) -> None:
