@@ -207,15 +207,17 @@ def mission_over(design: Design, hours: Sequence[float]) -> Mission:
 
 
 LONGEST = 99.0
-"""Most hours of a leg."""
+"""Most hours of a leg: our choice, what a field of two digits holds."""
 _DIGITS = 2
+"""Decimals of the hours."""
 _LEAST_LEGS = 2
+"""A mission of one flight condition needs no twist that changes."""
 
 
-def hours_with(hours: Sequence[float], leg: int, flown: float) -> tuple[float, ...]:
+def hours_with(hours: Sequence[float], leg: int, time: float) -> tuple[float, ...]:
     """The hours of a mission with another time of one leg; as they were where less than two legs would be left."""
     changed = list(hours)
-    changed[leg] = round(min(max(flown, 0.0), LONGEST), _DIGITS)
+    changed[leg] = round(min(max(time, 0.0), LONGEST), _DIGITS)
     if sum(time > 0.0 for time in changed) < _LEAST_LEGS:
         return tuple(hours)
     return tuple(changed)

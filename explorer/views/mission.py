@@ -5,9 +5,9 @@ They are set on the flight bar of Actuate; for a rotor that carries no actuator,
 
 from collections.abc import Sequence
 
-from explorer.model.actuator_inputs import hours_with, mission_over
+from explorer.model.actuator_inputs import LONGEST, hours_with, mission_over
 from explorer.text.readout import mission_hours
-from explorer.views.page_state import Effect, PageState, Panel, SetHand
+from explorer.views.page_state import Effect, OpenPanels, PageState, Panel, SetHand
 from rotor import Design
 from rotor.dynamics.structure import KNOWN_BLADE
 from rotor.optimisation import FlightLeg, standard_flight
@@ -46,7 +46,7 @@ def _field(place: int, leg: FlightLeg) -> Markup:
         "input",
         type="number",
         min=0.0,
-        max=99.0,
+        max=LONGEST,
         step=0.05,
         inputmode="decimal",
         value=f"{leg.hours:g}",
@@ -64,4 +64,11 @@ def set_hours(now: PageState, leg: int, hours: float) -> tuple[Effect, ...]:
     return (SetHand(actuator={"hours": hours_with(before, leg, hours)}),)
 
 
-MISSION = Panel(view, presses={"hours": lambda now, value: set_hours(now, *value)})
+def _in_mission_modes(ui: OpenPanels) -> bool:
+    """Whether hours are shown and set: the modes with the flight bar and the Schedule section."""
+    return ui.mode in ("optimise", "actuate")
+
+
+MISSION = Panel(
+    view, _in_mission_modes, presses={"hours": lambda now, value: set_hours(now, *value)}
+)

@@ -92,7 +92,7 @@
         <b>${text(name)}</b></button>
         <label><input type="number" min="0" max="99" step="0.05" inputmode="decimal" data-hours="${k}"
           aria-label="Hours of ${text(name)} in the mission"> h</label>
-        <small>${text(words).replace(/,.*/, '<span>$&</span>')}</small></div>`).join(''));
+        <small>${text(words)}</small></div>`).join(''));
     showHours(flight);
     outdate(card, flight.kind !== 'ready');
     card.dataset.kind = flight.kind;

@@ -371,8 +371,7 @@ def widest_changes(values: Array) -> Array:
 def baseline(mission: Mission, concept: Concept) -> Baseline:
     """Find the optima; free breaks are fixed at those of the best fixed blade.
 
-    The slowest and the fastest leg are searched from the starts of a concept, the legs between from the best fixed
-    blade alone: their optima lie between. Raises RuntimeError with one sentence when no twist trims.
+    Raises RuntimeError with one sentence when no twist trims.
     """
     known: _Known = {}
     fixed = best_fixed(mission, concept, known=known)
@@ -384,14 +383,10 @@ def baseline(mission: Mission, concept: Concept) -> Baseline:
             fixed, values=tuple(value for parameter, value in named if parameter.unit != "R")
         )
     designs = mission.designs()
+    best = tuple(best_twist(design, concept, [fixed.values], known=known) for design in designs)
     by_speed = sorted(range(len(designs)), key=lambda k: designs[k].condition.advance_ratio)
-    ends = by_speed[0], by_speed[-1]
-    best = tuple(
-        best_twist(design, concept, [fixed.values], alone=k not in ends, known=known)
-        for k, design in enumerate(designs)
-    )
     # Without breaks the other two starts are those found above.
-    starts = [fixed.values, *(best[k].values for k in ends)]
+    starts = [fixed.values, best[by_speed[0]].values, best[by_speed[-1]].values]
     flights = designs, mission.shares, ()
     better = _search(flights, concept, None, starts, alone=not breaks, known=known)
     return Baseline(mission, concept, best, min((fixed, better), key=lambda optimum: optimum.power))

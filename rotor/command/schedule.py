@@ -34,7 +34,10 @@ def add_parser(commands: Any) -> None:
         "--division", metavar="R", help="break of two-segment concepts in r/R (default 0.5)"
     )
     where = parser.add_mutually_exclusive_group()
-    words = "range of advance ratios, equal hours at each (default: the standard mission)"
+    words = (
+        "range of advance ratios, equal hours at each (default: hover, climb, cruise and fast "
+        "flight for assumed hours)"
+    )
     where.add_argument("--mu", dest="range", metavar="A:B:STEP", help=words)
     where.add_argument("--mission", metavar="FILE", help=common.MISSION_HELP)
     parser.add_argument(
@@ -63,7 +66,8 @@ def run(args: argparse.Namespace) -> int:
         stopped = stop()
     if args.csv:
         optima_table(schedule).write(args.csv)
-    common.print_result(args, lambda: record(schedule), lambda: report(schedule))
+    assumed = args.range is None and args.mission is None
+    common.print_result(args, lambda: record(schedule), lambda: report(schedule, assumed=assumed))
     if schedule.message:
         print(f"rotor: {schedule.message}", file=sys.stderr)
     return common.STOPPED if stopped and not schedule.complete else 0 if schedule.converged else 1
@@ -174,7 +178,8 @@ def _entry(optimum: Optimum | None, concept: Concept) -> dict[str, Any] | None:
     }
 
 
-def report(schedule: Schedule) -> str:
+def report(schedule: Schedule, *, assumed: bool = False) -> str:
+    """The text of `schedule`. `assumed`: whether the hours of its mission are those of the default."""
     lines: list[str] = []
     before: object = ...
     for cell in schedule.cells:
@@ -197,6 +202,8 @@ def report(schedule: Schedule) -> str:
                 f"{'' if sure is None else f'Beyond that, variable twist {sure.saving_words}.'}"
             )
             lines.append(wrapped(sentence, "  "))
+    if assumed:
+        lines.append("The hours of the mission are assumed: give yours with --mission.")
     if not schedule.complete:
         lines.append("Stopped before the end.")
     return "\n".join(lines)

@@ -10,7 +10,7 @@ import pytest
 from playwright.sync_api import Browser, Page
 from test_accessible import AXE, CHECK, LEGIBLE
 from test_export import foreign, requests_of
-from watched import window
+from watched import DRAWN, window
 
 from explorer.export.fitted import Fitted, fitted
 from explorer.export.live import live_html
@@ -143,9 +143,11 @@ def test_no_other_script_runs(browser: Browser, path: Path, tmp_path: Path):
 
 @pytest.mark.parametrize("scheme", ["light", "dark"])
 def test_it_fits_any_window_and_paper(page: Page, scheme: str):
-    page.emulate_media(color_scheme=scheme)  # pyright: ignore[reportArgumentType]
+    page.emulate_media(media="screen", color_scheme=scheme)  # pyright: ignore[reportArgumentType]
     for width in (390, 812, 1500):
         page.set_viewport_size({"width": width, "height": 844})
+        page.wait_for_function("width => innerWidth === width", arg=width)
+        page.evaluate(DRAWN)  # It draws its charts for the new width.
         assert page.evaluate("() => document.documentElement.scrollWidth") == width
         assert page.evaluate(f"({LEGIBLE})()")["small"] == []
     page.emulate_media(media="print")

@@ -2,22 +2,26 @@
 
 import re
 from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from typing import Any
 
 from chromium import DRAW_NOTHING
-from playwright.sync_api import Browser, BrowserContext, Locator, Page
+from playwright.sync_api import Browser, BrowserContext, Locator, Page, TimeoutError
 
 SMALL, MEDIUM, LARGE = (1180, 640), (1280, 720), (1500, 940)
 WAIT = 90_000
 """[ms]; far more than it takes, for machines that draw in software."""
+_POINTING = 9_000
+"""[ms] after which the pointer is moved to the blade again."""
 COARSE = "?fixedDpr=0.5"
 """Half as many pixels each way, for tests that read no picture."""
 OPEN = """() => document.querySelector('[data-explorer=status]')?.dataset.kind === 'converged'
     && !document.documentElement.classList.contains('rx-veiled')"""
-_DRAWN = (
+DRAWN = (
     "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
 )
+"""Waits until what was asked for is drawn."""
 
 
 ON_SCREEN = """r => {
@@ -50,7 +54,7 @@ class Watched:
 
     def drawn(self) -> None:
         """Wait until what has arrived is drawn: `RX.state` is ahead of what is seen by a frame."""
-        self.page.evaluate(_DRAWN)
+        self.page.evaluate(DRAWN)
 
     def close(self) -> None:
         self.page.close()
@@ -127,13 +131,25 @@ class Watched:
             self.page.evaluate("name => RX.send('drawer', name)", name)
         self.page.wait_for_selector(f'[data-explorer="drawer"][data-name="{name}"]')
 
+    def point_at_tip(self) -> tuple[float, float]:
+        """Point near the tip of the reference blade until viser shows that it can be taken; the pixel.
+
+        The camera goes where the cards leave room: where it moved on meanwhile, point again, as a person would.
+        """
+        for _ in range(WAIT // _POINTING):
+            x, y = self.at_rest(lambda: self.page.evaluate(ON_SCREEN, 7.2))
+            self.page.mouse.move(x, y)
+            with suppress(TimeoutError):
+                self.page.wait_for_function(
+                    "() => window.__viserMutable.canvas.style.cursor === 'grab'", timeout=_POINTING
+                )
+                return x, y
+            self.page.mouse.move(x, y + 40)
+        raise AssertionError("the tip of the blade is never under the pointer")
+
     def grab_tip(self) -> tuple[float, float]:
         """Press on the reference blade near its tip and begin to pull it down; the pixel of the press."""
-        # The camera goes where the cards leave room.
-        x, y = self.at_rest(lambda: self.page.evaluate(ON_SCREEN, 7.2))
-        self.page.mouse.move(x, y)
-        # viser has seen it.
-        self.page.wait_for_function("() => window.__viserMutable.canvas.style.cursor === 'grab'")
+        x, y = self.point_at_tip()
         self.page.mouse.down()
         self.page.mouse.move(x, y + 12, steps=4)
         self.page.wait_for_function("() => RX.state.twisting")

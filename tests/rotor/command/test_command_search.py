@@ -162,6 +162,15 @@ def test_a_schedule_flies_the_standard_mission_unless_another_is_given(answer: A
     ]
 
 
+@pytest.mark.parametrize(("chosen", "assumed"), [("", True), ("--mu 0.1,0.2", False)])
+def test_the_text_of_a_schedule_calls_hours_assumed_that_are(
+    printed: Callable[..., str], chosen: str, assumed: bool
+):
+    flags = "--inflow uniform --elements 12 --azimuths 24 --concept linear --starts 1 --processes 1"
+    text = printed("schedule", *flags.split(), *chosen.split())
+    assert ("The hours of the mission are assumed" in text) == assumed
+
+
 def test_ctrl_c_on_a_schedule_prints_the_results_so_far(
     answer: Answer, monkeypatch: pytest.MonkeyPatch
 ):
