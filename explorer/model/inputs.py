@@ -391,6 +391,10 @@ def _with_law(inputs: Inputs, twist: TwistLaw) -> Inputs | None:
     """The inputs moved to the law that holds `twist`; None where none does."""
     if isinstance(twist, IdealTwist):
         return replace(inputs, law="ideal")
+    if twist == _builtin_twist(inputs):
+        law = LAWS["builtin"]
+        turns = [name for name, one in zip(law.inputs, law.parameters, strict=True) if one.angular]
+        return replace(inputs, law="builtin", **dict.fromkeys(turns, 0.0))
     change, laws = twist, [law for law in LAWS.values() if law.page != "builtin"]
     if isinstance(twist, SumTwist) and twist.base == _builtin_twist(inputs):
         change, laws = twist.change, [LAWS["builtin"]]

@@ -1,9 +1,9 @@
-"""A game: by hand to the power that a search found, with its twist law, its start and its bounds. Values only."""
+"""A game: by hand to the power that a search found, from where the page was. Values only."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from explorer.model.inputs import LAWS, Inputs, with_optimum
+from explorer.model.inputs import LAWS, NOT_ALWAYS, Inputs, inputs_of, with_optimum
 from explorer.model.sliders import on_steps
 from explorer.sharing.share import clipped, code_of, design_from
 from rotor import Design, Solution
@@ -18,7 +18,7 @@ class Game:
     """Powers are not kept: who opens the link of a game solves its designs again."""
 
     start: Design
-    """Where the search began, at places of the sliders."""
+    """The page's design as the search began; the nearest of the search's twist law where no slider holds its twist."""
     least: Design
     """What the search found, at the nearest places of the sliders."""
     score: Design | None = None
@@ -26,12 +26,14 @@ class Game:
 
     @property
     def law(self) -> str:
-        """Twist law of the sliders, of `LAWS`."""
+        """Twist law of the search, of `LAWS`."""
         return next(_laws(self.least))
 
     def holds(self, inputs: Inputs) -> bool:
-        """Whether these inputs are a try: the same flight, models and rotor, and the law of the game on its sliders."""
-        return inputs.law == self.law and same_but_twist(self.least, inputs.design())
+        """Whether these inputs are a try: the same flight, models and rotor, and the twist law of the search or that
+        of the start on the sliders."""
+        known = inputs.law in (self.law, inputs_of(self.start).law)
+        return known and same_but_twist(self.least, inputs.design())
 
     def code(self) -> str:
         """As text for an address; ValueError where no address holds the rotor."""
@@ -68,12 +70,16 @@ def game_of(search: Search, found: Design, inputs: Inputs) -> Game | None:
     )
     if not alone or not concept.page or not same_but_twist(found, design):
         return None
-    begun = concept.apply(design, nearest(concept, design.twist))
-    start, least = (
-        replace(design, twist=on_steps(with_optimum(inputs, one)).design().twist)
-        for one in (begun, found)
-    )
+    least = _on_sliders(found, inputs)
+    start = design
+    if inputs_of(design).law in NOT_ALWAYS:
+        start = _on_sliders(concept.apply(design, nearest(concept, design.twist)), inputs)
     return None if start == least else Game(start, least)
+
+
+def _on_sliders(design: Design, inputs: Inputs) -> Design:
+    """The design with the twist at the nearest places of the sliders."""
+    return replace(design, twist=on_steps(with_optimum(inputs, design)).design().twist)
 
 
 def _laws(design: Design) -> Iterator[str]:

@@ -33,7 +33,9 @@ def notice(now: PageState) -> dict[str, Any]:
         link = (
             []
             if game.best is game.start
-            else [("game_link", f"Copy link: I reached {total_words(game.best.power.total, units)}")]
+            else [
+                ("game_link", f"Copy link: I reached {total_words(game.best.power.total, units)}")
+            ]
         )
         actions = [*link, ("game_take", "Take it"), ("game_end", "End")]
         sentence = comparison(state.solution, game.least, band, units)
@@ -51,10 +53,10 @@ def score(best: Solution, to_beat: Solution, units: Units) -> str:
 
 
 def comparison(own: Solution, other: Solution, band: Doubt | None, units: Units) -> str:
-    """One's own power against the least by the same sliders, with the band of the difference where it is known."""
+    """One's own power against what the search found, with the band of the difference where it is known."""
     unit, change = units.power[0], own.power.total - other.power.total
     power, way = (
-        f"Least with these sliders {total_words(other.power.total, units)}",
+        f"The search found {total_words(other.power.total, units)}",
         "more" if change > 0.0 else "less",
     )
     if abs(change) < _EQUAL:

@@ -240,7 +240,7 @@ def test_a_game_is_played_by_its_link(app: App):
         assert standing is not None
         assert standing.best.design == page.context.inputs().design()
         assert standing.least.power.total < standing.best.power.total < standing.start.power.total
-        assert visitor.frame["notice"]["text"].startswith("Least with these sliders")
+        assert visitor.frame["notice"]["text"].startswith("The search found")
         (link, *_) = visitor.frame["notice"]["actions"]
         assert link[1].startswith("Copy link: I reached ")
         await visitor.press("game_take")

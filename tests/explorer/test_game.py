@@ -1,4 +1,4 @@
-"""Beating the search by hand: the same law, start and bounds, so that a hand can tie; its link, and its scores."""
+"""Beating the search by hand, from where the page was: a hand can tie; its link, and its scores."""
 
 import itertools
 import math
@@ -27,8 +27,8 @@ def game_by(concept: str, inputs: Inputs) -> Game:
     return game
 
 
-def by_hand(game: Game, inputs: Inputs) -> float:
-    """Least power [W] that a player reaches who moves the sliders from the start, one to all at once, by ever fewer of
+def by_hand(game: Game, inputs: Inputs, begun: Design) -> float:
+    """Least power [W] that a player reaches who moves the sliders from a blade, one to all at once, by ever fewer of
     their steps, and looks at power alone."""
     names, solved = LAWS[game.law].inputs, solve(game.start).require()
     steps, powers = [SLIDERS[name].step for name in names], dict[tuple[float, ...], float]()
@@ -41,8 +41,8 @@ def by_hand(game: Game, inputs: Inputs) -> float:
             powers[values] = answer.power.total if answer.converged else float("inf")
         return powers[values]
 
-    begun = with_optimum(inputs, game.start)
-    at, stride = tuple(getattr(begun, name) for name in names), 32
+    placed = with_optimum(inputs, begun)
+    at, stride = tuple(getattr(placed, name) for name in names), 32
     while stride >= 1:
         moves = itertools.product((0, stride, -stride), repeat=len(names))
         tries = [
@@ -61,6 +61,12 @@ def by_hand(game: Game, inputs: Inputs) -> float:
     return power(at)
 
 
+def nearest_of(name: str, start: Design) -> Design:
+    """The nearest blade to the start that a concept makes: there the hand begins on the sliders of its law."""
+    concept = find_concept(name)
+    return concept.apply(start, nearest(concept, start.twist))
+
+
 def within(name: str, value: float) -> bool:
     low, high = limits(name)
     return low <= value <= high
@@ -74,11 +80,12 @@ def within(name: str, value: float) -> bool:
         pytest.param("two-segment-free", OPENING, marks=pytest.mark.slow),
     ],
 )
-def test_a_hand_from_the_same_start_ties_with_the_search(concept: str, inputs: Inputs):
+def test_a_hand_on_the_sliders_of_the_law_ties_with_the_search(concept: str, inputs: Inputs):
     game = game_by(concept, inputs)
+    begun = nearest_of(concept, game.start)
     least = solve(game.least).require().power.total
-    assert solve(game.start).require().power.total > least + 4.0 * TIE
-    assert abs(by_hand(game, inputs) - least) < TIE
+    assert solve(begun).require().power.total > least + 4.0 * TIE
+    assert abs(by_hand(game, inputs, begun) - least) < TIE
 
 
 def test_the_sliders_of_a_law_reach_as_far_as_its_search():
@@ -91,15 +98,30 @@ def test_the_sliders_of_a_law_reach_as_far_as_its_search():
             )
 
 
-def test_the_hand_begins_where_the_search_did():
-    design = PLAIN.design()
-    search = Search(design, CONCEPTS["linear"])
-    game = game_of(search, replace(design, twist=make_design(twist="linear:-7.52").twist), PLAIN)
+def test_the_hand_begins_where_the_page_was():
+    for inputs in (PLAIN, replace(PLAIN, built_inner=-2.0, built_division=0.6)):
+        design = inputs.design()
+        found = replace(design, twist=make_design(twist="linear:-7.52").twist)
+        game = game_of(Search(design, CONCEPTS["linear"]), found, inputs)
+        assert game is not None
+        assert game.start == design
+        assert with_optimum(inputs, game.start) == inputs
+        assert game.holds(inputs)
+        assert with_optimum(inputs, game.least).linear == -7.5
+
+
+def test_where_no_slider_holds_the_page_s_twist_the_hand_begins_at_the_nearest():
+    points = make_design(twist="points:8,5,-1,-6@0.2,0.5,0.8,1").twist
+    inputs = replace(PLAIN, law="given", given=points)
+    design = inputs.design()
+    game = game_of(
+        Search(design, CONCEPTS["linear"]),
+        replace(design, twist=make_design(twist="linear:-7.5").twist),
+        inputs,
+    )
     assert game is not None
     (begun,) = nearest(CONCEPTS["linear"], design.twist)
-    start, least = (with_optimum(PLAIN, one).linear for one in (game.start, game.least))
-    assert start == pytest.approx(math.degrees(begun), abs=0.05)
-    assert least == -7.5
+    assert with_optimum(inputs, game.start).linear == pytest.approx(math.degrees(begun), abs=0.05)
 
 
 def test_no_game_where_the_sliders_cannot_do_what_the_search_did():
@@ -151,6 +173,13 @@ def test_a_try_has_the_flight_and_the_law_of_the_game(game: Game):
         {"inflow": "uniform"},
     ):
         assert not game.holds(replace(tried, **other))
+
+
+def test_a_try_may_have_the_law_of_the_start(game: Game):
+    built = replace(game, start=PLAIN.design())
+    assert built.holds(replace(PLAIN, built_outer=1.0))
+    assert built.holds(replace(PLAIN, law="linear"))
+    assert not built.holds(replace(PLAIN, law="two"))
 
 
 def test_a_text_that_is_no_game_is_refused(game: Game):

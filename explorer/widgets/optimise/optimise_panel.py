@@ -254,17 +254,17 @@ class OptimisePanel:
         return NoticePart("Previewing optimum", [close[0], *beat, close[1]])
 
     def _game_of(self, run: SearchRun) -> Game | None:
-        """The game that the search makes, if it has come to its end."""
+        """The game that the search makes, if it has come to its end and found less power than the page had."""
         if self._made is None or self._made[0] is not run:
             over = run.optimum is not None and run.optimum.status is SearchStatus.CONVERGED
-            found = (
-                game_of(run.search, run.frames[-1].design, self._context.inputs()) if over else None
-            )
-            self._made = run, found
+            game = None
+            if over and run.frames[-1].power < (run.start_power or math.inf):
+                game = game_of(run.search, run.frames[-1].design, self._context.inputs())
+            self._made = run, game
         return self._made[1]
 
     def _beat(self) -> None:
-        """A game against what was found, from where the search began."""
+        """A game against what was found, from where the page was."""
         run = self.run
         if (
             run is not None
