@@ -197,7 +197,7 @@ def test_disk_and_plan_have_the_colours_that_files_have(browser: Browser, app: A
 
     Not at 0.93 R, where the sweep of the tip begins and the Mach number jumps.
     """
-    page = browser.new_page(viewport={"width": 900, "height": 744})
+    page = browser.new_page(viewport={"width": 1400, "height": 940})
     at = [
         (r * math.sin(psi), r * math.cos(psi))
         for r in (0.45, 0.7, 0.9)
