@@ -5,7 +5,7 @@
   const name = element => element.dataset?.explorer || element.dataset?.dockRegion || element.dataset?.region || element.dataset?.part || element.dataset?.value || element.dataset?.do || element.ariaLabel || String(element.getAttribute('class')).split(' ').at(-1);
   const all = selector => [...document.querySelectorAll(selector)].filter(seen).map(element => ({element, box: element.getBoundingClientRect()})).filter(({box}) => box.width > 1 && box.height > 1);
   const meet = (a, b, by = 2) => Math.min(a.right, b.right) - Math.max(a.left, b.left) > by && Math.min(a.bottom, b.bottom) - Math.max(a.top, b.top) > by;
-  const surfaces = all('.rxf-bar, .rxf-line, #rx .rxf-card:not([data-reading], .rxf-sheet *), .rxf-sheet, .rxf-grip, .rxf-notice, .rxf-prompt, .rxf-label, [data-dock-region]');
+  const surfaces = all('.rxf-bar, .rxf-line, #rx .rxf-card:not([data-reading], .rxf-sheet *), .rxf-sheet, .rxf-grip, .rxf-notice, .rxf-prompt, .rxf-label, .rxf-fly-bar > div > div, [data-dock-region]');
   const hit = [];
   surfaces.forEach((a, k) => surfaces.slice(k + 1).forEach(b => {
     if (!a.element.contains(b.element) && !b.element.contains(a.element) && meet(a.box, b.box)) hit.push(`${name(a.element)} × ${name(b.element)}`);
