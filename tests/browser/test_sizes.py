@@ -134,6 +134,8 @@ def test_the_rotor_has_room_at_all_sizes_in_all_modes(visit: Visit):
                 lambda name=name: page.evaluate(look, name)
             )
             assert hit == [], (mode, width, height)
+            if mode == "explore":
+                assert watched.box(".rxp-curve")["height"] >= 90.0, (width, height)
             assert right - left >= LEAST_SHARE * width, (mode, width, height)
             assert 0 < left < right < width, (mode, width, height)
             assert 0 < top < bottom < height, (mode, width, height)
