@@ -124,7 +124,7 @@ def test_the_search_is_beaten_by_hand_and_a_link_has_the_score(
     words = said(watched, r"^The search found \d+ kW, yours [\d.]+ ± [\d.]+ kW more")
     assert session.page.context.controls.inputs() == begun  # Where the page was.
     assert watched.page.locator("[data-do=game_link]").count() == 0  # Nothing is reached yet.
-    watched.press("Δ outboard", "PageDown" if too_flat(session) else "PageUp", 1)
+    watched.press("Outboard", "PageDown" if too_flat(session) else "PageUp", 1)
     watched.until(lambda: gap(said(watched, "more|less")) < gap(words))
     copied = watched.page.evaluate_handle(
         "() => { const said = []; RX.copy = text => said.push(text); return said; }"
