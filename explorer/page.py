@@ -55,6 +55,7 @@ from explorer.views.panel_updater import PanelUpdater
 from explorer.views.pay import PAY
 from explorer.views.power import HAND, POWER
 from explorer.views.prices import PRICES
+from explorer.views.ride_cost import RIDE_COST
 from explorer.views.strip import STRIP
 from explorer.views.vibration import VIBRATION
 from explorer.views.waterfall import COSTS, WATERFALL
@@ -85,7 +86,7 @@ AT_ONCE = BAR, PROMPT
 _NUMBER = LINE, POWER, HAND
 PANELS = (
     *(*AT_ONCE, *_NUMBER, VIBRATION, NOTICE, STRIP, WORTH, INSET, DETAILS, TRUST),
-    *(WATERFALL, COSTS, PRICES, *_ACTUATE),
+    *(WATERFALL, COSTS, PRICES, RIDE_COST, *_ACTUATE),
 )
 Urgency = Literal["azimuth", "address", "number", "results", "tabs", "power", "rest", "kept"]
 """What of the page follows a state, in order of how soon: only the azimuth changed; what a reload must find, and the
@@ -333,6 +334,7 @@ class Page:
                 context.layout.drawer,
                 self.actuator.lifted,
                 self._views.now == "disk",
+                self._views.probe.riding,
             ),
             pins=context.pinboard.now,
             steps=self.history.steps,

@@ -38,6 +38,7 @@ class Parts(TypedDict, total=False):
     probe_label: Sequence[stage.SceneLabel]
     prompt: stage.SceneLabel | None
     ride: stage.RidePart | None
+    ride_cost: stage.RideCostPart | None
     twisting: stage.TwistingPart | None
     stale: bool
     """Whether what is shown belongs to other inputs than those that are set."""

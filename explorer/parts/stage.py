@@ -160,8 +160,10 @@ class RidePart:
 
     `psi`: where the turn begins. `out`: radius of the section [m]. `eye`, `look`: where the camera stands and looks,
     from the section out, ahead and up [m]; `view`: its field of view [°]. Angles [°], lift [kN/m]. `margin`: to stall;
-    `filled`: α over the stall angle on its side; both None where it has none. `curves`: C_l over `angles`, a curve for
-    each step of ψ. `chart`: the axes, with the path of the turn.
+    `filled`: α over the stall angle on its side; both None where it has none. `seen`: a sentence on what a viewer
+    sees. `static`: C_l of the static lift curve at α; `stall`: the positive static stall angle, None where sections do
+    not stall. `curves`: that C_l over `angles`, a curve for each step of ψ. `chart`: the axes, with the path of the
+    turn.
     """
 
     r: float
@@ -183,9 +185,26 @@ class RidePart:
     region: Sequence[str]
     margin: Sequence[str | None]
     filled: Sequence[float | None]
+    seen: Sequence[str]
+    static: Sequence[float]
+    stall: Sequence[float | None]
     angles: Sequence[float]
     curves: Sequence[Sequence[float]]
     chart: DrawnChart
+
+
+@dataclass(frozen=True)
+class RideCostPart:
+    """What separated flow costs the whole rotor. `words`: the price, or why there is none.
+
+    `spent`: its sum from ψ = 0 to ψ at equal steps over the turn, both ends included, in the `unit`; the last is the
+    price. Empty where there is none, or it is not known yet.
+    """
+
+    words: str
+    spent: Sequence[float]
+    unit: str
+    stale: bool
 
 
 @dataclass(frozen=True)

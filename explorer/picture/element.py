@@ -1,20 +1,12 @@
-"""One blade element under the glass: flow, angles and loads at a point (r, ψ) of the disk; and a slow turn with it.
-
-Of the turn this has what the page needs to go with the section, over the azimuth.
-"""
+"""One blade element under the glass: flow, angles and loads at a point (r, ψ) of the disk."""
 
 import math
 from dataclasses import dataclass, replace
 from enum import Enum
-from typing import Any
 
 import numpy as np
 
-from explorer.colours import THIS
-from explorer.model.units import number
-from explorer.parts.stage import RidePart
 from explorer.picture.blade_mesh import blade_axes_outline
-from explorer.picture.camera_views import RIDE_EYE, RIDE_LOOK, RIDE_VIEW
 from explorer.picture.polar import chord_of, stall_angles
 from explorer.text.status import section_title
 from rotor import Solution
@@ -26,7 +18,6 @@ from rotor.airfoil.sections import Section
 from rotor.airfoil.stall_delay import delay_gain, delayed_lift
 from rotor.airfoil.stall_onset import unstalled
 from rotor.support.arrays import Array
-from rotor.support.chart import Axis, Chart, Line, drawn_chart
 from rotor.trim import DiskFields
 
 _OUTLINE = 61
@@ -301,79 +292,3 @@ class _GridPoint:
         )
         # Two products rather than a difference: so the outer station has exactly its own value, too.
         return (1.0 - out) * inner + out * outer
-
-
-AZIMUTHS = 72
-"""Points of a turn; the page goes straight between them."""
-_ANGLES = 91
-"""Angles of each lift curve."""
-_LEAST_REACH = 14.0
-"""The lift curve is drawn at least to this angle of attack either way [°]."""
-
-
-def turn_of(solution: Solution, r: float, psi_deg: float) -> RidePart:
-    """A section around the disk, with the lift curve at each Mach number."""
-    around = [probe(solution, r, 2.0 * math.pi * k / AZIMUTHS) for k in range(AZIMUTHS)]
-    ahead = np.array([here.u_t >= 0.0 for here in around])
-    # From the edge that meets the flow.
-    angle = [
-        here.alpha if here.u_t >= 0.0 else math.remainder(here.alpha - math.pi, 2.0 * math.pi)
-        for here in around
-    ]
-    alpha = np.degrees(angle)
-    cl = np.array([here.cl for here in around])
-    reach = max(_LEAST_REACH, 1.15 * float(np.abs(alpha[ahead]).max(initial=0.0)))
-    angles = np.linspace(-reach, reach, _ANGLES)
-    curves = [
-        here.section.lift_curve(np.radians(angles) + (0.0 if front else math.pi), here.table_mach)
-        for here, front in zip(around, ahead, strict=True)
-    ]
-    highest = max(float(np.abs(cl).max()), *(float(np.abs(curve).max()) for curve in curves))
-    path = Line(
-        "",
-        np.append(alpha, alpha[0]),
-        np.append(np.where(ahead, cl, np.nan), np.nan),
-        THIS,
-        width=1.2,
-    )
-    across = Axis("α", (-reach, reach), unit="°")
-    chart = Chart(
-        "Lift curve at this Mach number",
-        across,
-        Axis("C_l", (-1.1 * highest, 1.1 * highest)),
-        (path,),
-    )
-    return RidePart(
-        r=r,
-        psi=psi_deg,
-        out=around[0].radius,
-        eye=_rounded(solution.design.rotor.radius * np.array(RIDE_EYE)),
-        look=_rounded(solution.design.rotor.radius * np.array(RIDE_LOOK)),
-        view=math.degrees(RIDE_VIEW),
-        section=sections_of(around[0].section),
-        outline=np.round(outline(around[0].section), 4).tolist(),
-        u=[round(math.copysign(here.u, here.u_t), 1) for here in around],
-        # The page rounds angles once more, to one decimal.
-        theta=_rounded([math.degrees(here.theta) for here in around], 4),
-        phi=_rounded([math.degrees(math.remainder(here.phi, 2.0 * math.pi)) for here in around], 4),
-        alpha=_rounded(alpha, 4),
-        cl=_rounded(cl, 3),
-        mach=_rounded([here.table_mach for here in around]),
-        lift=_rounded([here.lift / 1e3 for here in around], 3),
-        where=[where(here.psi) for here in around],
-        region=[here.region.value for here in around],
-        margin=[
-            None if here.stall_margin is None else number(math.degrees(here.stall_margin), 1)
-            for here in around
-        ],
-        filled=[
-            None if here.stall_share is None else round(here.stall_share, 3) for here in around
-        ],
-        angles=_rounded(angles),
-        curves=[_rounded(curve, 3) for curve in curves],
-        chart=drawn_chart(chart),
-    )
-
-
-def _rounded(values: Any, digits: int = 2) -> list[float]:
-    return np.round(np.asarray(values, dtype=float), digits).tolist()

@@ -23,13 +23,15 @@ T = TypeVar("T")
 class OpenPanels:
     """What of the page is open.
 
-    `lifted`: the blade with its actuator is out of the rotor. `disk`: the view of the disk is shown.
+    `lifted`: the blade with its actuator is out of the rotor. `disk`: the view of the disk is shown. `riding`: the view
+    goes with a blade section.
     """
 
     mode: Mode = "explore"
     drawer: str = ""
     lifted: bool = False
     disk: bool = False
+    riding: bool = False
 
 
 @dataclass(frozen=True)

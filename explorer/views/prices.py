@@ -60,7 +60,7 @@ def _switch_price(now: PageState, switch: str, *, on: bool) -> RegionPrice:
     """What an effect costs; `on`: whether the page has it."""
     steps, current = switched_alone(now)
     if switch in steps:
-        lines = (_cost(steps[switch], now.units, on),)
+        lines = (switch_cost(steps[switch], now.units, on),)
     elif not steps and not current:
         lines = ("Computing …",)
     else:
@@ -68,7 +68,7 @@ def _switch_price(now: PageState, switch: str, *, on: bool) -> RegionPrice:
     return RegionPrice(lines, stale=not current)
 
 
-def _cost(step: WaterfallStep, units: Units, on: bool) -> str:
+def switch_cost(step: WaterfallStep, units: Units, on: bool) -> str:
     """What an effect costs or saves, as `Costs 10.5 kW`; `on`: whether the page has it, else `Stall would cost 0.8 kW`.
 
     The power is compared with that of the same flight without the effect.

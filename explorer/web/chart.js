@@ -198,8 +198,10 @@ const Charts = (() => {
       <div class="rxf-head"><b>${subscripts(title)}</b><span class="rxf-dim">${subscripts(y.label)}</span>${key}${scale}
         <span class="rxf-num ${kind ? `rxf-${kind}` : ''}" data-value>${text(value)}</span></div>
       <svg viewBox="0 0 ${width} ${high}" role="img" aria-label="${spoken}">
-        ${axes(chart, place)}${inside(chart, place)}<path data-hair pointer-events="none"/></svg>`;
+        ${axes(chart, place)}${inside(chart, place)}<path data-turn pointer-events="none"/>
+        <path data-hair pointer-events="none"/></svg>`;
     element.drawn = {chart, place};
+    markTurn(element);
     const again = page ? '[data-page]' : focus && `[data-do][data-value="${CSS.escape(focus)}"]`;
     if (again) element.querySelector(again)?.focus({preventScroll: true});
   }
@@ -218,6 +220,17 @@ const Charts = (() => {
     svg.setAttribute('viewBox', `0 0 ${width} ${height}`);
     svg.innerHTML = drawn.join('') + dot;
     element.drawn = null;
+  }
+  // A line on every chart along the blade or around a turn, at the place of each such axis; null: on none.
+  let marked = null;
+  function turn(places) {
+    marked = places;
+    for (const element of document.querySelectorAll('.rxf-chart')) markTurn(element);
+  }
+  function markTurn(element) {
+    const {chart, place} = element.drawn ?? {}, at = marked?.[chart?.x.label];
+    const x = at === undefined ? '' : place.X(at).toFixed(1), mark = element.querySelector('[data-turn]');
+    mark?.setAttribute('d', x && `M${x} ${place.top}V${place.base}`);
   }
   // A point with a press is a button, by keys as by the pointer.
   document.addEventListener('keydown', event => {
@@ -269,5 +282,5 @@ const Charts = (() => {
       paint(element);
     }
   }
-  return {bar, frame, rows, axes, inside, fill, spark, find};
+  return {bar, frame, rows, axes, inside, fill, spark, find, turn};
 })();

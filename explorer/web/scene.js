@@ -237,9 +237,10 @@
       heard = {psi: angle, at};
       go();
     },
-    // The reference blade at ψ [rad], and the camera with its section, as `RidePart` says. The page learns where the
-    // horizon is on the canvas [%]. `leave` flies back.
-    ride(angle, {out, eye, look, view}) {
+    // The reference blade at ψ [rad], and the camera with its section, as `RidePart` says, above a card that covers so
+    // much of the canvas. The page learns where the horizon is on the canvas [%]. `leave` flies back, or leaves the
+    // camera to the server.
+    ride(angle, {out, eye, look, view}, covered) {
       const control = viewer()?.cameraControl, blade = node('/rotor/blade_0'), world = blade?.parent;
       if (!motion || !control || !world) return;
       const point = blade.position.clone(), now = performance.now(), {camera} = viewer();
@@ -252,17 +253,23 @@
       const at = ([more, y, z], x = out + more) =>
         point.clone().set(x * c - y * s, x * s + y * c, z + flapped).applyMatrix4(world.matrixWorld);
       const from = at(eye), to = at(look), along = to.clone().sub(from).normalize();
-      Object.assign(camera, {fov: view}).updateProjectionMatrix();
+      // What would fill the canvas is drawn smaller, above the card, though not so small that its edges are distorted.
+      const half = Math.tan(view * Math.PI / 360) / (1 - covered) ** .75;
+      const {clientWidth: width, clientHeight: height} = viewer().canvas;
+      camera.fov = 2 * Math.atan(half) * 180 / Math.PI;
+      camera.setViewOffset(width, height, 0, covered / 2 * height, width, height);
       control.setLookAt(...from.toArray(), ...to.toArray(), !calm.matches && now - seat.since < 900);
-      const rise = Math.tan(Math.asin(along.dot(camera.up))) / Math.tan(view * Math.PI / 360);
-      document.documentElement.style.setProperty('--rx-horizon', `${(50 + 50 * rise).toFixed(1)}%`);
+      const rise = Math.tan(Math.asin(along.dot(camera.up))) / half, horizon = 50 + 50 * (rise - covered);
+      document.documentElement.style.setProperty('--rx-horizon', `${horizon.toFixed(1)}%`);
     },
-    async leave() {
+    async leave(flies) {
       const back = seat, control = viewer()?.cameraControl;
       seat = null;
       if (!back || !control) return;
-      Object.assign(viewer().camera, {fov: back.fov}).updateProjectionMatrix();
+      viewer().camera.fov = back.fov;
+      viewer().camera.clearViewOffset();
       heard = mark = null;
+      if (!flies) return;
       const wait = time => new Promise(done => setTimeout(done, time));
       await Promise.race([control.setLookAt(...back.from.toArray(), ...back.to.toArray(), !calm.matches), wait(1500)]);
       await wait(200);  // Until the server has heard where the camera is.

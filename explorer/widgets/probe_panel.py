@@ -5,7 +5,6 @@ import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Literal
 
 import numpy as np
 import viser
@@ -20,7 +19,7 @@ from explorer.parts.presses import SectionPress
 from explorer.parts.stage import SceneLabel
 from explorer.picture.blade_mesh import circle_segments, drawn_pitch, swept_back
 from explorer.picture.camera_views import pick, pick_blade
-from explorer.picture.element import Probe, probe, turn_of
+from explorer.picture.element import Probe, probe
 from explorer.picture.picture import (
     LINE_LIFT,
     axis_rotation,
@@ -29,6 +28,7 @@ from explorer.picture.picture import (
     flown_twist,
     rotate,
 )
+from explorer.picture.ride import FIRST_PSI, telling_station, turn_of
 from explorer.scene.controller import TURN_RATE, SceneController
 from explorer.text.glossary import hint
 from explorer.text.readout import answers, outdated
@@ -150,10 +150,24 @@ class RideAlong:
         self._at: tuple[float, float] | None = None
         """r/R and the azimuth where the turn began [°]."""
         self._shown: Solution | None = None
+        self._drawer, self._azimuth_deg = "", 0.0
+        """The drawer that was open before, and where the reference blade was."""
+        self.ended: list[Callable[[], None]] = []
+        """Called after a ride, whoever ended it."""
+
+    @property
+    def riding(self) -> bool:
+        return self._at is not None
 
     def begin(self, solution: Solution, r: float, psi_deg: float) -> None:
+        """Go along; the drawer that is open makes room for the turn."""
+        layout = self._context.layout
+        if not self.riding:
+            self._drawer = layout.drawer
+            self._azimuth_deg = self._context.display.view.azimuth_deg
         self._scene.camera.hold(True)
-        self._context.layout.show_drawer("")
+        if layout.drawer:
+            layout.show_drawer("")
         self._scene.play(True)
         self._at, self._shown = (r, psi_deg), None
         self.show(solution)
@@ -163,14 +177,28 @@ class RideAlong:
             self._shown = solution
             self._context.bridge.set(ride=turn_of(solution, *self._at))
 
-    def end(self) -> None:
+    def pass_by(self, psi_deg: float) -> None:
+        """The blade of the ride is there: charts along the reference blade follow."""
+        if self.riding:
+            self._context.display.turn(psi_deg)
+
+    def end(self, *, brought_back: bool = False) -> None:
+        """Leave the page as it was before. `brought_back`: the page has flown its camera back already."""
         if self._at is None:
             return
         self._at = self._shown = None
         self._context.bridge.set(ride=None)
         if not self._playing():
             self._scene.play(False)
-        self._scene.camera.hold(False)
+        camera, layout = self._scene.camera, self._context.layout
+        self._context.display.turn(self._azimuth_deg)
+        camera.hold(False)
+        if not brought_back:
+            camera.come_back()
+        if self._drawer and not layout.drawer:
+            layout.open_drawer(self._drawer)
+        for after in self.ended:
+            after()
 
 
 LONGEST = 600.0
@@ -229,8 +257,11 @@ class ProbePanel:
         for box in (self._follow, self._shown, self._opened):
             by_hand(box, lambda _: context.wake())
         client.scene.on_click()(self._clicked)
-        self._ride = RideAlong(context, scene, lambda: self._player.playing)
-        context.bridge.on("ride", self._take_along)
+        self.ride = RideAlong(context, scene, lambda: self._player.playing)
+        self.ride.ended.append(self._play_on)
+        self._played = False
+        """Whether the rotor turned by itself before a ride."""
+        context.bridge.on("riding", self.ride.pass_by)
         context.bridge.on("section", self.point)
         context.bridge.on("play", lambda _: self.toggle())
         bind = context.keyboard.bind
@@ -239,6 +270,11 @@ class ProbePanel:
         for name, (r, psi) in _STEPS.items():
             bind(f"probe_{name}", partial(self._step, r, psi))
             bind(f"probe_far_{name}", partial(self._step, COARSE * r, COARSE * psi))
+
+    @property
+    def riding(self) -> bool:
+        """Whether the view goes with a section."""
+        return self.ride.riding
 
     def show(self, state: SessionState | None) -> None:
         """Follow a converged answer, or the reference blade; None: the inputs have no answer."""
@@ -249,7 +285,7 @@ class ProbePanel:
             # Where the blade is now: an older place would pull back a slider that is being dragged.
             self._psi.value = self._context.display.view.azimuth_deg
         solution = state.solution
-        self._ride.show(solution)
+        self.ride.show(solution)
         # The first step of r/R on the blade.
         self._r.min = round(
             _R_STEP * math.ceil(solution.design.rotor.blade.root_cutout / _R_STEP - 1e-9), 2
@@ -288,7 +324,7 @@ class ProbePanel:
 
     def _fade(self) -> None:
         """What stands here is of the last answer."""
-        self._ride.end()
+        self.ride.end()
         self._pause()
         self._drawn = None
         self._panel.content = outdated(self._html)
@@ -307,18 +343,32 @@ class ProbePanel:
         self._player.play()
         self._set_playing(True)
 
-    def _take_along(self, at: SectionPress | Literal["off"] | None) -> None:
-        """A turn with the section there, or at the probe; "off" ends it."""
+    def take_along(self, at: SectionPress | None) -> None:
+        """Begin a turn with the section there; None: with the chosen one, or else with that which shows most."""
         state = self._context.state()
-        if at == "off" or state is None:
-            self._ride.end()
+        if state is None:
             return
         if not self._scene.drawn:
             self._context.notify("No ride", "This browser draws no 3D: use one with WebGL.")
             return
-        at = at or SectionPress(self._r.value, self._psi.value)
+        at = at or self._chosen() or SectionPress(telling_station(state.solution), FIRST_PSI)
+        self._played = self._player.playing
         self._pause()
-        self._ride.begin(state.solution, min(max(at.r, self._r.min), 1.0), at.psi)
+        r = round(min(max(at.r, self._r.min), 1.0), 2)
+        self.ride.begin(state.solution, r, at.psi)
+        self._context.wake()
+
+    def _chosen(self) -> SectionPress | None:
+        """The section that the drawer or the disk shows."""
+        if not self._shown.value and self._context.layout.drawer != "probe":
+            return None
+        return SectionPress(self._r.value, self._psi.value)
+
+    def _play_on(self) -> None:
+        """After a ride the rotor turns by itself again, if it did."""
+        played, self._played = self._played, False
+        if played:
+            self.toggle()
 
     def _pause(self) -> None:
         if self._player.playing:

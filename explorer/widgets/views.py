@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import replace
 from functools import partial
+from typing import Literal
 
 import viser
 
@@ -10,7 +11,7 @@ from explorer.model.inputs import ViewState
 from explorer.model.session_state import Look, ScreenState, SessionState
 from explorer.model.units import UNITS
 from explorer.parts.frame import ViewsPart
-from explorer.parts.presses import Drawn
+from explorer.parts.presses import Drawn, SectionPress
 from explorer.picture.camera_views import Camera, View
 from explorer.picture.fields import FIELDS, shown_field
 from explorer.picture.lifted_blade import fit_lifted
@@ -99,11 +100,14 @@ _MISSING: dict[Drawn, str] = {
     "none": "No 3D: this browser has no WebGL. Switch on hardware acceleration, or use another browser.",
     "lost": "The browser has lost the 3D view. It returns on its own, or when you reload the page.",
 }
-_COMMANDS: dict[str, View] = {
+_RIDE: tuple[Literal["ride"], str] = ("ride", "Ride")
+"""The view that goes with a blade section, and its title."""
+_COMMANDS: dict[str, View | Literal["ride"]] = {
     "view_3d": "3d",
     "view_top": "top",
     "view_blade": "blade",
     "view_side": "side",
+    "view_ride": "ride",
 }
 
 
@@ -126,7 +130,11 @@ class SceneViews:
         """What the page's plan of the disk shows at rest."""
         self.before: Solution | None = None
         """The answer when the blade was taken into the hand, while it is seen from the tip with the plan beside it."""
+        self._lifted_before = False
+        """Whether the blade was out of the rotor before a ride."""
+        probe.ride.ended.append(self._after_ride)
         context.bridge.on("view", self.look)
+        context.bridge.on("ride", self._ride)
         context.bridge.on("colours", self._colour)
         context.bridge.on("scene", self.follow_browser)
         context.layout.watchers.append(self._mode_changed)
@@ -164,6 +172,7 @@ class SceneViews:
     def put(self, wanted: ScreenState) -> None:
         """Show this, all at once; units and theme stay as the user has them."""
         context, layout = self._context, self._context.layout
+        self._leave_ride()
         with context.whole:
             view = context.display.view
             if view != (other := replace(wanted.view, units=view.units, dark=view.dark)):
@@ -178,10 +187,14 @@ class SceneViews:
             if wanted.look != self.now:
                 self.look(wanted.look)
 
-    def look(self, view: Look) -> None:
-        """Show the rotor from there, or the blade with its actuator, where there is a scene."""
+    def look(self, view: Look | Literal["ride"]) -> None:
+        """Show the rotor from there, or the blade with its actuator, or go with a section, where there is a scene."""
+        if view == "ride":
+            self._ride("off" if self.probe.riding else None)
+            return
         if self._missing:
             return
+        self._leave_ride()
         if view == "actuator":
             self._lift(True)
             return
@@ -190,6 +203,34 @@ class SceneViews:
         if view != "disk":
             self._hide_plan()
         self._scene.look(view)
+        self._show()
+        self._context.wake()
+
+    def _ride(self, at: SectionPress | Literal["off"] | None) -> None:
+        """Go with the section there, or with the one that is chosen; "off": the page has come back from it."""
+        if at == "off":
+            self.probe.ride.end(brought_back=True)
+            return
+        lifted = self._actuator.lifted
+        if lifted:
+            self._lift(False, self._view)
+        self.probe.take_along(at)
+        if self.probe.riding:
+            self._lifted_before = self._lifted_before or lifted
+        elif lifted:
+            self._lift(True)
+        self._show()
+
+    def _leave_ride(self) -> None:
+        """Something else is shown from now on."""
+        self._lifted_before = False
+        self.probe.ride.end()
+
+    def _after_ride(self) -> None:
+        """The blade is lifted out again, if it was."""
+        lifted, self._lifted_before = self._lifted_before, False
+        if lifted:
+            self._lift(True)
         self._show()
         self._context.wake()
 
@@ -235,6 +276,7 @@ class SceneViews:
         """Actuate opens on the blade that carries the actuator."""
         before, self._mode = self._mode, self._context.layout.mode
         if self._mode != before:  # Otherwise only the drawer has changed.
+            self._leave_ride()
             self._lift(self._mode == "actuate")
             if before == "actuate":
                 self._actuator.leave()
@@ -260,5 +302,6 @@ class SceneViews:
     def _show(self) -> None:
         on_stage = self._context.layout.mode == "actuate" and self._actuator.fits
         whole = "Aircraft" if self._context.inputs().stand is None else "Rotor"
-        views = (*([("actuator", "Actuator")] if on_stage else []), ("3d", whole), *VIEWS)
-        self._context.bridge.set(views=ViewsPart(views, self.now, self._missing))
+        views = (*([("actuator", "Actuator")] if on_stage else []), ("3d", whole), *VIEWS, _RIDE)
+        now = "ride" if self.probe.riding else self.now
+        self._context.bridge.set(views=ViewsPart(views, now, self._missing))

@@ -21,16 +21,18 @@ from rotor.optimisation.limits import Limits
 from rotor.optimisation.objective import Quantity as Objective
 from rotor.optimisation.objective import WeightedCondition
 from rotor.optimisation.schedule import Schedule, SchedulePlan, run_plan
+from rotor.support.arrays import Array
 from rotor.support.chart import Axis, Chart, Line
 from rotor.support.plots import draw_chart
 from rotor.support.table import Column, table
 from rotor.support.units import KNOT, unit_of
 from rotor.support.user_input import check_suffix, csv_text, extra_module, write_whole
+from rotor.trim.assemble import evaluated
 from rotor.trim.doubt import Doubt, doubt
 from rotor.trim.hub_loads import hub_loads
 from rotor.trim.many import solve_many
 from rotor.trim.no_hub_loads import why_no_hub_loads
-from rotor.trim.power import PowerBudget
+from rotor.trim.power import PowerBudget, power_around
 from rotor.trim.solution import Solution, require_solution
 from rotor.trim.solve import solve
 
@@ -493,6 +495,10 @@ class WaterfallStep:
     """That of the last step before it that trimmed, or of the full model; None at the start."""
     note: str = ""
     """Why this switch has no effect here, as a clause."""
+    around: Array | None = None
+    """Total power over the azimuth [W], (azimuths,), the first at ψ = 0; None where it did not trim."""
+    against_around: Array | None = None
+    """The same of `against`."""
 
     @property
     def title(self) -> str:
@@ -516,6 +522,16 @@ class WaterfallStep:
         change = self.change
         return None if change is None else sum(change.values())
 
+    @property
+    def added_around(self) -> Array | None:
+        """`added` over the azimuth [W], (azimuths,), of which it is the mean; None where the two trims have other
+        azimuths."""
+        if self.around is None or self.against_around is None:
+            return None
+        if len(self.around) != len(self.against_around):
+            return None
+        return self.around - self.against_around
+
 
 def waterfall_steps(
     design: Design, order: Sequence[str] = tuple(SWITCHES)
@@ -528,21 +544,29 @@ def waterfall_steps(
     left = list(order)
     start = full = solve(with_switches(design, left))
     yield (step := _step(None, full, None))
-    last = step.budget
+    last = step
     for name in order:
         left.remove(name)
         full = solve(with_switches(design, left), start if start.converged else None)
         yield (step := _step(name, full, last))
-        start, last = (full, step.budget) if full.converged else (start, last)
+        start, last = (full, step) if full.converged else (start, last)
     for name in order:
-        yield _step(name, solve(with_switches(design, (name,)), full), step.budget)
+        yield _step(name, solve(with_switches(design, (name,)), full), step)
 
 
-def _step(name: str | None, trim: Solution, against: PowerBudget | None) -> WaterfallStep:
+def _step(name: str | None, trim: Solution, against: WaterfallStep | None) -> WaterfallStep:
     switch, note = (None, "") if name is None else (SWITCHES[name], no_effect(trim.design, name))
     budget = trim.power if trim.converged else None
     return WaterfallStep(
-        switch, trim.design, budget, trim.message, trim.hub_moment.size, against, note
+        switch=switch,
+        design=trim.design,
+        budget=budget,
+        message=trim.message,
+        hub_moment=trim.hub_moment.size,
+        against=None if against is None else against.budget,
+        note=note,
+        around=None if budget is None else power_around(*evaluated(trim), budget),
+        against_around=None if against is None else against.around,
     )
 
 

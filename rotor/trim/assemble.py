@@ -82,7 +82,8 @@ def assemble(result: TrimResult, begin: float) -> Analysis:
     return Analysis(solution, result.linear)
 
 
-def _evaluated(solution: Solution) -> tuple[Problem, BladeElements]:
+def evaluated(solution: Solution) -> tuple[Problem, BladeElements]:
+    """The problem and the blade elements on the azimuths of the trim; a light solution is evaluated once more."""
     if solution.evaluated is not None:
         return solution.evaluated
     linear = Analysis(solution).linear
@@ -92,7 +93,7 @@ def _evaluated(solution: Solution) -> tuple[Problem, BladeElements]:
 @one_blas_thread()
 def shown_of(solution: Solution) -> Shown:
     """What is shown of a solution, from its blade elements, or from its equations evaluated once more."""
-    problem, elements = _evaluated(solution)
+    problem, elements = evaluated(solution)
     asked = at_display_azimuths(problem, elements)
     fields = _fields(*asked)
     seen = regions(asked[0].disk, asked[1])

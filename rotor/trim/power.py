@@ -112,6 +112,20 @@ def power_budget(problem: Problem, elements: BladeElements, total: DiskSums) -> 
     )
 
 
+def power_around(problem: Problem, elements: BladeElements, budget: PowerBudget) -> Array:
+    """Total power [W] over the azimuth, (azimuths,), whose mean is `total` of the budget.
+
+    Induced and profile power are where the blades spend them. All else has no azimuth: it is the same at each.
+    """
+    e = elements
+    width = problem.disk.dr * problem.design.power_unit
+    swirl = e.swirl[:, None]
+    induced = e.induced * e.fz + swirl * e.fx
+    profile = e.u_t * e.fx - e.u_p * e.fz + e.u_r * e.fr
+    elsewhere = budget.total - budget.induced - budget.profile
+    return width @ (induced + profile) + elsewhere
+
+
 def induced_power(problem: Problem, air: tuple[Array, Array], fz: Array, fx: Array) -> float:
     """Σ (λ_i dF_z + u dF_x) [W]; air: λ_i and u."""
     (induced, swirl), width = air, problem.disk.dr / len(problem.disk.psi)

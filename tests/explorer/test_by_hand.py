@@ -26,7 +26,7 @@ SENT: dict[str, Any] = {
     "task": "Map", "opened": "History", "rotor": "r22", "flown": "dnw", "default": "Δ inboard [°/R]", "story": 2,
     "guess": 0, "stop": 1, "dial_front": 2, "grab_at": 1.0, "twist_by_hand": 1.0, "slide": ["advance_ratio", 0.3],
     "difference": "on",
-    "more": "on", "ride": [0.8, 90.0], "azimuth": 30.0, "fly": 1.5, "suppose": "on", "balance": "here",
+    "more": "on", "ride": [0.8, 90.0], "riding": 120.0, "azimuth": 30.0, "fly": 1.5, "suppose": "on", "balance": "here",
     "against": "best-fixed", "state": "stopped", "section": [0.8, 90.0], "map_at": [0.2, 0.8], "pull": 0.5,
     "covered": [0.1, 0.2, 0.3, 0.0], "view": "disk", "colours": "Rescale", "lecture": "next",
     "knot": ["2", [None, -5.0]], "dial": [[3, 1.0, 60.0]],

@@ -15,7 +15,7 @@ from explorer.charts.probe_measured import lift_chart
 from explorer.model.inputs import ViewState
 from explorer.picture.blade_mesh import blade_shape
 from explorer.picture.camera_views import pick, pick_blade
-from explorer.picture.element import AZIMUTHS, FlowRegion, probe, turn_of
+from explorer.picture.element import FlowRegion, probe
 from explorer.picture.picture import (
     DISK_DROP,
     composed_rotation,
@@ -24,6 +24,7 @@ from explorer.picture.picture import (
     rotor_pose,
     tip_path_pose,
 )
+from explorer.picture.ride import AZIMUTHS, turn_of
 from rotor import Solution, make_design, solve
 from rotor.aero.switches import with_switches
 from rotor.design.design import FLIGHT_MODELS

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 
 from explorer.charts.strip import alpha_chart
 from explorer.model.inputs import Inputs
-from explorer.picture.element import turn_of
+from explorer.picture.ride import turn_of
 from explorer.text.readout import ideal_induced
 from rotor import hub_loads
 from rotor.actuator import Verdict
@@ -620,7 +620,7 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
         (
             Place("section", _PROBE_PANEL, _document("section", " α #°")),
             Place("chart along the blade", "explorer.charts.strip.alpha_chart", _alpha_along),
-            Place("ride", "explorer.picture.element.turn_of", _ride("alpha")),
+            Place("ride", "explorer.picture.ride.turn_of", _ride("alpha")),
         ),
     ),
     ShownQuantity(
@@ -632,7 +632,7 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
         ),
         (
             Place("section", _PROBE_PANEL, _document("section", "Stall margin #°")),
-            Place("ride", "explorer.picture.element.turn_of", _ride("margin")),
+            Place("ride", "explorer.picture.ride.turn_of", _ride("margin")),
         ),
     ),
     ShownQuantity(

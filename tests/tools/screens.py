@@ -23,9 +23,10 @@ from explorer.model.inputs import Inputs, ViewState, baseline_of
 from explorer.model.session_state import SessionState
 from explorer.model.units import SI
 from explorer.page import PANELS
-from explorer.picture.element import AZIMUTHS, probe
+from explorer.picture.element import probe
 from explorer.picture.fields import FIELDS
 from explorer.picture.plan import plan
+from explorer.picture.ride import AZIMUTHS
 from explorer.views.actuated import actuated_blade
 from explorer.views.page_state import OpenPanels, PageState
 from explorer.views.work import shown_doubt

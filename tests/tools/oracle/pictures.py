@@ -205,7 +205,7 @@ def probe(record: Record, name: str, solution: Any) -> None:
                 beside,
                 math.radians(degrees),
             )
-    record.ask(f"{name}/ride", "explorer.picture.element.turn_of", solution, 0.75, 30.0)
+    record.ask(f"{name}/ride", "explorer.picture.ride.turn_of", solution, 0.75, 30.0)
 
 
 def draw_curves(record: Record, solved: Mapping[str, Any]) -> None:
