@@ -47,6 +47,7 @@ from explorer.views.page_state import (
     MoveSliders,
     OpenPanels,
     PageState,
+    PinDesign,
     PinOrder,
     SetGrabbed,
     SetHand,
@@ -335,6 +336,7 @@ class Page:
                 self._views.now == "disk",
             ),
             pins=context.pinboard.now,
+            kept=self.history.kept,
             steps=self.history.steps,
             station=self._curve.held,
             change=context.tracker.change,
@@ -390,7 +392,7 @@ class Page:
                 )
                 self.panel_updater.memory = self.panel_updater.memory.then(state, last)
                 self.file.follow(state)
-                self.actuator.write_hours()
+                self.actuator.write_address()
             case "number":
                 self._learn()
                 follow(_NUMBER.__contains__)
@@ -516,12 +518,16 @@ class Page:
             case PinOrder(order):
                 self.context.pinboard.ask(order)
                 self.context.wake()
+            case PinDesign(inputs):
+                self.context.pin(inputs)
             case _:
                 self.actuator.perform(effect)
 
     def _carry(self, actuator: ActuatorInputs) -> None:
-        """A link or a file has an actuator on board: show it. The hours of the mission are no part of it, and stay."""
-        self._set_actuator(replace(actuator, hours=self.actuator.inputs().hours))
+        """A link or a file has an actuator on board: show it. The hours of the mission and what changes count from are
+        no part of it, and stay."""
+        now = self.actuator.inputs()
+        self._set_actuator(replace(actuator, hours=now.hours, against=now.against))
         self.context.layout.show_mode("actuate")
 
     def _set_actuator(self, actuator: ActuatorInputs) -> None:

@@ -30,7 +30,7 @@ SENT: dict[str, Any] = {
     "against": "best-fixed", "state": "stopped", "section": [0.8, 90.0], "map_at": [0.2, 0.8], "pull": 0.5,
     "covered": [0.1, 0.2, 0.3, 0.0], "view": "disk", "colours": "Rescale", "lecture": "next",
     "knot": ["2", [None, -5.0]], "dial": [[3, 1.0, 60.0]],
-    "kind": "AFC", "hours": [2, 1.5], "scene": "lost", "seen": True,
+    "kind": "AFC", "law": "linear", "compare": "this", "hours": [2, 1.5], "scene": "lost", "seen": True,
 }  # fmt: skip
 """A value for each press that has one."""
 BEGUN = "Δ inboard [°/R]"
