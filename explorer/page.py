@@ -292,11 +292,14 @@ class Page:
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
         able = solution if solution is not None and solution.converged else None
+        before = self.context.pinboard.pinned
         outcome = self.context.pinboard.act(inputs, able) or PinResult(None)
         if outcome.sentence:
             self.context.notify("A and B", outcome.sentence)
         if outcome.inputs is not None:
             self.context.set_inputs(outcome.inputs)
+        if self.context.pinboard.pinned is not before:
+            self.history.note_pinned()
         self.context.display.allow_difference(self.context.pinboard.pinned is not None)
         return outcome.inputs is not None
 

@@ -124,6 +124,11 @@
   });
   // Where a touch is told as a mouse afterwards, the focus stays in what it has opened.
   place.addEventListener('mousedown', event => { if (closest(event, '[data-handle]')) event.preventDefault(); });
+  // A click without a pointer is that of a screen reader, or of a key on a button.
+  place.addEventListener('click', event => {
+    const {handle: name} = closest(event, '[data-handle]')?.dataset ?? {};
+    if (name && event.detail === 0) toggle(name);
+  });
   place.addEventListener('keydown', event => {
     const {handle: name} = closest(event, '[data-handle]')?.dataset ?? {}, control = controls.get(name);
     if (!name || event.ctrlKey || event.metaKey || event.altKey) return;
@@ -244,13 +249,21 @@
     const option = menus.get(opened?.name ?? '')?.options[closest(event, '[data-option]')?.dataset.option];
     if (!option) return;
     close(true);
-    if (!option.chosen) RX.send(/** @type {any} */ (option.press), option.value);
+    if (option.chosen) return;
+    const letGo = RX.hold();  // A step of undo of its own.
+    RX.send(/** @type {any} */ (option.press), option.value);
+    letGo();
   });
   values.addEventListener('keydown', event => {
     const last = values.children.length - 1, at = [...values.children].indexOf(closest(event, '[data-option]'));
     const ends = ['Escape', ...(opened?.control ? ['Enter'] : [])].includes(event.key);
     const goes = {ArrowDown: Math.min(at + 1, last), ArrowUp: Math.max(at - 1, 0), Home: 0, End: last}[event.key];
     if (event.key !== 'Tab') event.stopPropagation();
+    // The page does not hear its own keys in a slider.
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === 'z') {
+      event.preventDefault();
+      return RX.send(event.shiftKey ? 'redo' : 'undo');
+    }
     if (!ends && (at < 0 || goes === undefined)) return;
     event.preventDefault();
     if (ends) close(true);
