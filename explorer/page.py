@@ -47,6 +47,7 @@ from explorer.views.page_state import (
     MoveSliders,
     OpenPanels,
     PageState,
+    PinDesign,
     PinOrder,
     SetGrabbed,
     SetHand,
@@ -292,11 +293,14 @@ class Page:
     def pin_or_swap(self, inputs: Inputs, solution: Solution | None) -> bool:
         """Do what the A/B buttons asked for; True if that moved the sliders, so that another update follows."""
         able = solution if solution is not None and solution.converged else None
+        before = self.context.pinboard.pinned
         outcome = self.context.pinboard.act(inputs, able) or PinResult(None)
         if outcome.sentence:
             self.context.notify("A and B", outcome.sentence)
         if outcome.inputs is not None:
             self.context.set_inputs(outcome.inputs)
+        if self.context.pinboard.pinned is not before:
+            self.history.note_pinned()
         self.context.display.allow_difference(self.context.pinboard.pinned is not None)
         return outcome.inputs is not None
 
@@ -337,6 +341,7 @@ class Page:
                 self._views.probe.riding,
             ),
             pins=context.pinboard.now,
+            kept=self.history.kept,
             steps=self.history.steps,
             station=self._curve.held,
             change=context.tracker.change,
@@ -392,7 +397,7 @@ class Page:
                 )
                 self.panel_updater.memory = self.panel_updater.memory.then(state, last)
                 self.file.follow(state)
-                self.actuator.write_hours()
+                self.actuator.write_address()
             case "number":
                 self._learn()
                 follow(_NUMBER.__contains__)
@@ -518,12 +523,16 @@ class Page:
             case PinOrder(order):
                 self.context.pinboard.ask(order)
                 self.context.wake()
+            case PinDesign(inputs):
+                self.context.pin(inputs)
             case _:
                 self.actuator.perform(effect)
 
     def _carry(self, actuator: ActuatorInputs) -> None:
-        """A link or a file has an actuator on board: show it. The hours of the mission are no part of it, and stay."""
-        self._set_actuator(replace(actuator, hours=self.actuator.inputs().hours))
+        """A link or a file has an actuator on board: show it. The hours of the mission and what changes count from are
+        no part of it, and stay."""
+        now = self.actuator.inputs()
+        self._set_actuator(replace(actuator, hours=now.hours, against=now.against))
         self.context.layout.show_mode("actuate")
 
     def _set_actuator(self, actuator: ActuatorInputs) -> None:

@@ -238,6 +238,14 @@ def read_hours(text: str) -> tuple[float, ...]:
     return hours
 
 
+def read_against(text: str) -> Against:
+    """The blade that changes count from, of a link; ValueError with one sentence for anything else."""
+    for known in AGAINST:
+        if text == known:
+            return known
+    raise ValueError(f"The comparison {text[:40]!r} is not known: choose {' or '.join(AGAINST)}.")
+
+
 def hours_text(hours: Sequence[float]) -> str:
     """The hours as in a link, for example `0.5,0.25,1,0.25`."""
     return ",".join(f"{time:g}" for time in hours)

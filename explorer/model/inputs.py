@@ -347,6 +347,15 @@ def inputs_of(design: Design) -> Inputs:
     return held or replace(start, law="given", given=twist, airfoils=airfoils)
 
 
+def law_titles(inputs: Inputs) -> dict[str, str]:
+    """The menu of twist laws: name in `Inputs` → title; those that are not always there only where inputs hold them."""
+    return {
+        key: law.title
+        for key, law in LAWS.items()
+        if key not in NOT_ALWAYS or getattr(inputs, key) is not None
+    }
+
+
 def with_rotor(inputs: Inputs, name: str, brought: Aircraft | None = None) -> Inputs:
     """A flight with another rotor as it is built, at its own reference mass; `own`: one newly brought.
 

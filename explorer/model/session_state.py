@@ -123,6 +123,10 @@ class Pins:
     along: bool = True
 
 
+_KEPT_PINS = 4
+"""Designs that were A with an actuator on board and are kept, with their solutions."""
+
+
 class Pinboard:
     """A of one session. Buttons ask from any thread; all else happens on the session's worker."""
 
@@ -130,8 +134,10 @@ class Pinboard:
         self.pinned: Pinned | None = None
         self.answer: Solution | None = None
         self.along = True
+        self._before: deque[Pinned] = deque(maxlen=_KEPT_PINS)
+        """What was A with an actuator on board, which its inputs do not say; the last one first."""
         self._asked: deque[Order] = deque()
-        self._put: deque[Inputs | None] = deque()
+        self._put: deque[Inputs | Pinned | None] = deque()
         self._by, self._known = by, BaselineCache(by=by)
 
     def ask(self, order: Order) -> None:
@@ -145,6 +151,11 @@ class Pinboard:
         """Pin these inputs as A, or nothing; takes effect in the next update."""
         self._put.append(inputs)
 
+    def put_back(self, inputs: Inputs | None) -> None:
+        """Pin what was A with these inputs, its actuator too; else as `put`."""
+        known = [pinned for pinned in self._before if pinned.inputs == inputs]
+        self._put.append(known[0] if known else inputs)
+
     @property
     def now(self) -> Pins:
         return Pins(self.pinned, self.answer, self.along)
@@ -153,7 +164,8 @@ class Pinboard:
     def inputs(self) -> Inputs | None:
         """A, or what will be A in the next update."""
         if waiting := self._put.copy():
-            return waiting[-1]
+            last = waiting[-1]
+            return last.inputs if isinstance(last, Pinned) else last
         return None if self.pinned is None else self.pinned.inputs
 
     def act(self, inputs: Inputs, solution: Solution | None) -> PinResult | None:
@@ -165,12 +177,7 @@ class Pinboard:
         while self._put:
             given = self._put[0]  # Removed once it is A: `inputs` reads it until then.
             try:
-                answer = None if given is None else self._by(given.design(), None, DEFAULT_OPTIONS)
-                self.pin(
-                    None
-                    if given is None or answer is None or not answer.converged
-                    else Pinned(given, answer)
-                )
+                self.pin(self._pinned_of(given) if isinstance(given, Inputs) else given)
             finally:
                 self._put.popleft()
         while self._asked and (outcome is None or outcome.inputs is None):
@@ -178,9 +185,16 @@ class Pinboard:
             self.pin(outcome.pinned)
         return outcome
 
+    def _pinned_of(self, inputs: Inputs) -> Pinned | None:
+        """A of these inputs; None where they have no trim."""
+        answer = self._by(inputs.design(), None, DEFAULT_OPTIONS)
+        return Pinned(inputs, answer) if answer.converged else None
+
     def pin(self, pinned: Pinned | None) -> None:
         """Pin this as A; None removes the pin."""
         if pinned is not self.pinned:
+            if self.pinned is not None and self.pinned.driven:
+                self._before.appendleft(self.pinned)
             self.pinned = pinned
             self.answer = None if pinned is None else pinned.solution
             design, solution = (

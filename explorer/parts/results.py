@@ -45,20 +45,52 @@ class PowerPart:
 
 @dataclass(frozen=True)
 class LineControl:
-    """A slider of the page within the line; numbers are in the unit shown, `words` with that unit."""
+    """A number of the line, which moves a slider of the page; `words`: with its unit.
+
+    `name`: of this number, no two of a line are alike; `slider`: of what it moves. `value`, `low`, `high`, `step` are
+    those of the slider, in the unit shown. The line has `factor` times them, with so many `digits`; `signed`: with a
+    plus sign.
+    """
 
     name: str
+    slider: str
     label: str
     words: str
+    unit: str
     value: float
     low: float
     high: float
     step: float
+    digits: int
+    factor: float = 1.0
+    signed: bool = False
+
+
+@dataclass(frozen=True)
+class LineOption:
+    """A value that a word of the line can take: its title, and the press of the page that chooses it."""
+
+    title: str
+    press: str
+    value: str | int
+    chosen: bool = False
+
+
+@dataclass(frozen=True)
+class LineMenu:
+    """The values that a word of the line can take. `name`: of the word, as of a `LineControl`."""
+
+    name: str
+    label: str
+    options: Sequence[LineOption]
 
 
 @dataclass(frozen=True)
 class LinePiece:
-    """Some words of the line. `part`: what they are, empty for what the hand has set; `stale`: of another design."""
+    """Some words of the line. `part`: what they are, empty for what the hand has set; `stale`: of another design.
+
+    `control`, `menu`: what opens below them.
+    """
 
     text: str
     part: str = ""
@@ -66,6 +98,7 @@ class LinePiece:
     stale: bool = False
     title: str = ""
     control: LineControl | None = None
+    menu: LineMenu | None = None
 
 
 @dataclass(frozen=True)

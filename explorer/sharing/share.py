@@ -44,6 +44,8 @@ CARRIED = "actuator"
 """Name of the actuator on board in the address."""
 HOURS = "h"
 """Name of the mission's hours in the address."""
+AGAINST = "against"
+"""Name of the blade that changes of an actuator count from in the address."""
 LONGEST = 1800
 """Most characters of a design: every browser and mail program accepts an address of this length."""
 LONGEST_OWN = 8000

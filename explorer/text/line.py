@@ -1,6 +1,6 @@
 """The one sentence on top of the page, of its picture and of the report: aircraft, flight, blade, power, against what.
 
-Its pieces are words, or controls: the sliders of what the hand has set.
+Its pieces are words, and handles of what the hand has set: numbers, which are sliders, and words with a menu.
 """
 
 import math
@@ -19,11 +19,12 @@ from explorer.model.inputs import (
     TWISTS,
     Inputs,
     inputs_of,
+    law_titles,
 )
 from explorer.model.sliders import STAND_SLIDERS, slider, stand_slider
 from explorer.model.stand import LOAD_TITLES, StandInputs
 from explorer.model.units import Units, number, shown
-from explorer.parts.results import Kind, LineControl, LinePiece
+from explorer.parts.results import Kind, LineControl, LineMenu, LineOption, LinePiece
 from explorer.text.design_words import AS_BUILT, listed, twist_name
 from explorer.text.readout import change_sizes, fineness, total_size
 from rotor import Design, Solution
@@ -46,6 +47,8 @@ _STANDS = {
 }
 WIDE = "wide"
 """The part of names that a telephone can do without."""
+AIRSPEED = "airspeed"
+"""What says the advance ratio once more, which the longest sentences can do without where they have little room."""
 BESIDE = "beside"
 """The part of the answer that it can do without."""
 MODELS = "models"
@@ -59,12 +62,24 @@ def control(
     name: str, form: Slider, value: float, text: str = "", *, sign: bool = False
 ) -> LinePiece:
     """A number that is dragged as its slider is; `text`: in place of the number."""
-    label, _, unit = form.label.partition(" [")
+    label, _, bracket = form.label.partition(" [")
+    unit = bracket.rstrip("]")
     text = text or number(value, form.digits, sign)
-    words = " ".join(filter(None, (text, unit.rstrip("]"))))
-    return LinePiece(
-        text, control=LineControl(name, label, words, value, form.low, form.high, form.step)
+    is_number = any(digit in text for digit in "0123456789")
+    handle = LineControl(
+        name=name,
+        slider=name,
+        label=label,
+        words=f"{text} {unit}".rstrip() if is_number else text,
+        unit=unit,
+        value=value,
+        low=form.low,
+        high=form.high,
+        step=form.step,
+        digits=form.digits,
+        signed=sign,
     )
+    return LinePiece(text, control=handle)
 
 
 def flight_pieces(inputs: Inputs, units: Units, carried_kg: float = 0.0) -> list[LinePiece]:
@@ -97,6 +112,7 @@ def flight_pieces(inputs: Inputs, units: Units, carried_kg: float = 0.0) -> list
         )
     if inputs.advance_ratio:
         pieces += [LinePiece(" at µ "), control("advance_ratio", speed, inputs.advance_ratio)]
+        pieces += [] if stand is not None else _airspeed_pieces(inputs, units)
     else:
         pieces += [LinePiece(" in "), control("advance_ratio", speed, 0.0, "hover")]
     for name, row in FLIGHT.items():
@@ -130,6 +146,32 @@ def flight_pieces(inputs: Inputs, units: Units, carried_kg: float = 0.0) -> list
         if inputs.counts(row) and (value := getattr(inputs, name)) is not None
     ]
     return pieces
+
+
+def _airspeed_pieces(inputs: Inputs, units: Units) -> list[LinePiece]:
+    """The airspeed, another number of the slider of advance ratio: ` (159 km/h)`."""
+    form = slider("advance_ratio", units, inputs.aircraft)
+    unit = units.speed[0]
+    per_mu = unit.of(inputs.tip_speed)
+    text = number(per_mu * inputs.advance_ratio)
+    handle = LineControl(
+        name="airspeed",
+        slider="advance_ratio",
+        label="Airspeed",
+        words=f"{text} {unit.symbol}",
+        unit=unit.symbol,
+        value=inputs.advance_ratio,
+        low=form.low,
+        high=form.high,
+        step=form.step,
+        digits=0,
+        factor=per_mu,
+    )
+    return [
+        LinePiece(" (", AIRSPEED),
+        LinePiece(text, AIRSPEED, control=handle),
+        LinePiece(f" {unit.symbol})", AIRSPEED),
+    ]
 
 
 def _test_pieces(stand: StandInputs) -> list[LinePiece]:
@@ -174,26 +216,32 @@ def carrying_pieces(
 
     `actuator`: the words for it.
     """
-    law = _law_pieces(inputs, design)
-    noun = "" if _is_named(inputs) and law[0].text != AS_BUILT else "twist "
-    pieces = [LinePiece(f", {noun}"), *law, LinePiece(","), *actuator]
-    return [*pieces, *_waves(design), *model_pieces(inputs), LinePiece(",")]
+    twist = [LinePiece(", "), *_named_law(inputs, design), LinePiece(",")]
+    return [*twist, *actuator, *_waves(design), *model_pieces(inputs), LinePiece(",")]
 
 
 def twist_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
     """The built-in twist: the turns and bends of its law, or the name of one that has none. `design`: of the inputs,
     None where they mean none."""
-    pieces = _law_pieces(inputs, design)
-    if pieces[0].text == AS_BUILT and len(pieces) == 1:
-        before = " with its twist "
-    elif _is_named(inputs):
-        before = " with "
-    else:
-        before = " with twist "
-    if pieces[0].control is None:
-        joined = replace(pieces[0], text=f"{before}{pieces[0].text}")
-        return [joined, *pieces[1:], *_waves(design)]
+    pieces = _named_law(inputs, design)
+    before = " with its " if pieces[-1].text == AS_BUILT else " with "
     return [LinePiece(before), *pieces, *_waves(design)]
+
+
+def _named_law(inputs: Inputs, design: Design | None) -> list[LinePiece]:
+    """The built-in twist behind the word that chooses its law: `twist −14.0/−8.0 °/R`; a law without numbers is that
+    word itself."""
+    law = _law_pieces(inputs, design)
+    if _is_named(inputs) and law[0].text != AS_BUILT:
+        return [replace(law[0], menu=law_menu(inputs)), *law[1:]]
+    return [LinePiece("twist", menu=law_menu(inputs)), LinePiece(" "), *law]
+
+
+def law_menu(inputs: Inputs) -> LineMenu:
+    """The twist laws that these inputs can have, as in the menu of the rail."""
+    titles = law_titles(inputs)
+    options = [LineOption(title, "law", law, law == inputs.law) for law, title in titles.items()]
+    return LineMenu("law", "Twist law", options)
 
 
 def _law_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
@@ -206,7 +254,7 @@ def _law_pieces(inputs: Inputs, design: Design | None) -> list[LinePiece]:
     built = inputs.law == "builtin"
     if built and not any(getattr(inputs, name) for name, _ in turns):
         outer = turns[-1][0]
-        return [control(outer, _form(outer), 0.0, AS_BUILT)]
+        return [control(outer, _form(outer), 0.0, AS_BUILT, sign=True)]
     pieces = [LinePiece(f"{AS_BUILT}, ", WIDE), LinePiece("Δ ")] if built else []
     last = {one.shown_unit: name for name, one in turns}
     alike = len(last) == 1
@@ -400,15 +448,18 @@ def change_pieces(
     known: bool = True,
     note: str = "",
     *,
+    menu: LineMenu | None = None,
     sourced: bool = True,
     built: bool = True,
 ) -> list[LinePiece]:
     """By how much [W] that is more or less than `than`, which needs `reference` [W], its band, and whether its sign is
-    known. `sourced`: as of `sureness`; `built`: whether it could be, or less power is not green."""
-    than = f"{than} ({total_size(reference, units)})"
+    known. `menu`: what else it can be compared with. `sourced`: as of `sureness`; `built`: whether it could be, or less
+    power is not green."""
+    against = LinePiece(than, "against", menu=menu)
+    power = f" ({total_size(reference, units)})"
     size, beside = change_sizes(change, band, units)
     if band is None and not any(digit in size for digit in "123456789"):
-        return [LinePiece(f": no change from {than}", "against")]
+        return [LinePiece(": no change from ", "than"), against, LinePiece(power, "reference")]
     word = "" if band is None else sureness(change, band, sourced=sourced)
     said = "" if band is None else sure_words(change, band, sourced=sourced)
     cap = said.removeprefix(word)
@@ -421,7 +472,9 @@ def change_pieces(
         LinePiece(beside, "sure-band", kind, not known),
         LinePiece(f" {units.power[0].symbol}", BESIDE, kind),
         LinePiece(" more" if change > 0.0 else " less", "more", kind),
-        LinePiece(f" than {than}{note}", "against"),
+        LinePiece(" than ", "than"),
+        against,
+        LinePiece(f"{power}{note}", "reference"),
         *([LinePiece(f", {word}", "sure", "", not known, cap.strip(", "))] if word else []),
         *([LinePiece(cap, "cap", "", not known)] if cap else []),
     ]

@@ -234,4 +234,4 @@ def make_feasible(now: PageState, _: Any) -> tuple[Effect, ...]:
     )
 
 
-ACTUATOR_CARD = Panel(card, blade_out, asks, presses={"against": choose, "feasible": make_feasible})
+ACTUATOR_CARD = Panel(card, blade_out, asks, presses={"feasible": make_feasible})

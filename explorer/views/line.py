@@ -3,7 +3,10 @@
 from dataclasses import replace
 from typing import Any
 
-from explorer.parts.results import LinePart, LinePiece, LineStatus
+from explorer.model.actuator_inputs import AGAINST
+from explorer.model.session_state import SessionState
+from explorer.parts.results import LineMenu, LineOption, LinePart, LinePiece, LineStatus
+from explorer.text.design_words import flight_name, title_words
 from explorer.text.line import (
     WIDE,
     blade_pieces,
@@ -27,14 +30,26 @@ from explorer.views.actuated import (
     flight_doubt,
     in_actuate,
 )
-from explorer.views.actuator import DRIVES
+from explorer.views.actuator import DRIVES, actuator_titles
+from explorer.views.assessed import choose
 from explorer.views.flight import STATES
-from explorer.views.page_state import PageState, Panel, PanelWork
+from explorer.views.page_state import (
+    Effect,
+    PageState,
+    Panel,
+    PanelWork,
+    PinDesign,
+    PinOrder,
+)
 from explorer.views.power import status
 from explorer.views.work import shown_doubt
 from rotor.actuator.verdict import MIN_SHOWN_W
 from rotor.design.quantity import Slider
 
+BUILT = "built"
+"""Press to compare with the blade as built."""
+THIS = "this"
+"""Press to compare with the present design, kept as A."""
 _DRIVE = Slider("Voltage [%]", -100.0, 100.0, 1.0)
 
 
@@ -80,7 +95,8 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     forbidden = one.installed.actuator.forbidden
     placement, host = one.inputs.mounting
     layout = layout_words(one.inputs.actuator, placement, host, crossed=one.inputs.crossed)
-    pieces = [LinePiece(f" with {one.name}{layout} ")]
+    name = LinePiece(one.name, menu=_actuator_menu(one))
+    pieces = [LinePiece(" with "), name, LinePiece(f"{layout} ")]
     pieces += [LinePiece(f"({forbidden}) ", "forbidden", "bad")] if forbidden else []
     pieces += [LinePiece(word, "state" if late else "", stale=late), LinePiece(" ")]
     for k, drive in enumerate(drives):
@@ -92,14 +108,24 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
     return [*pieces, LinePiece("\u00a0%"), LinePiece(f" {noun.lower()}", WIDE)]
 
 
+def _actuator_menu(one: ActuatedBlade) -> LineMenu:
+    """The actuators that the blade can carry, as in the menu of the rail."""
+    chosen = one.inputs.actuator
+    titles = actuator_titles()
+    options = [LineOption(title, "kind", id, id == chosen) for id, title in titles.items()]
+    return LineMenu("actuator", "Actuator", options)
+
+
 def _flight_change(one: ActuatedBlade) -> list[LinePiece]:
     """With its mass and its drive, and the limits that are exceeded."""
-    here, now, against = one.here, one.now, one.question.against
+    here, now, menu = one.here, one.now, _blade_menu(one)
+    than = _than(one)
+    blade = LinePiece(_than_blade(one), "against", menu=menu)
     if here is None:
-        return [LinePiece(": computing the change …", "moved", stale=True)]
+        computing = LinePiece(": computing the change from ", "moved", stale=True)
+        return [computing, blade, LinePiece(" …", "more", stale=True)]
     if here.band is None and abs(here.power) < MIN_SHOWN_W:
-        return [LinePiece(": no change from the blade without it", "against")]
-    than = "without it" if against == "same-blade" else f"with the {against_words(one, against)}"
+        return [LinePiece(": no change from ", "than"), blade]
     digit = (
         0.5 * 10.0 ** -fineness(now.state.solution.power, now.units)
         if now.state is not None
@@ -111,7 +137,7 @@ def _flight_change(one: ActuatedBlade) -> list[LinePiece]:
     reach = one.installed.actuator.range_limits
     broken = () if one.verdict is None else one.verdict.broken
     over = over_pieces([limit_words(each.name) for each in broken if each.name not in reach])
-    how = {"sourced": one.sourced, "built": one.built}
+    how = {"sourced": one.sourced, "built": one.built, "menu": menu}
     _, other = now.of(compared_trims) or (None, None)
     if other is None:
         return over
@@ -121,6 +147,29 @@ def _flight_change(one: ActuatedBlade) -> list[LinePiece]:
     )
 
 
+def _than(one: ActuatedBlade) -> str:
+    """The blade that changes of an actuator count from, as the line names it."""
+    against = one.question.against
+    return "without it" if against == "same-blade" else f"with the {against_words(one, against)}"
+
+
+def _than_blade(one: ActuatedBlade) -> str:
+    """The same blade by itself: `the blade without it`."""
+    against = one.question.against
+    return (
+        "the blade without it" if against == "same-blade" else f"the {against_words(one, against)}"
+    )
+
+
+def _blade_menu(one: ActuatedBlade) -> LineMenu:
+    """The blades that changes of an actuator can count from."""
+    chosen = one.question.against
+    options = [
+        LineOption(against_words(one, each), "against", each, each == chosen) for each in AGAINST
+    ]
+    return LineMenu("than", "Compared with", options)
+
+
 def _change(now: PageState) -> list[LinePiece]:
     """From the blade as built, or A; nothing where that is what is shown."""
     state = now.state
@@ -128,7 +177,8 @@ def _change(now: PageState) -> list[LinePiece]:
         return []
     solution, reference, pinned = state.solution, state.reference, state.pinned is not None
     if solution.design == reference.design:
-        return [LinePiece(": same as A", "against")] if pinned else []
+        same = LinePiece("A", "against", menu=_design_menu(now, state))
+        return [LinePiece(": same as ", "than"), same] if pinned else []
     if "free-rotor" in (solution.design.models.trim, reference.design.models.trim):
         return []
     band, known = now.latest(shown_doubt(now)[0])
@@ -139,10 +189,42 @@ def _change(now: PageState) -> list[LinePiece]:
     carried = solution.design.rotor.blade.carried is not None
     built = carried or solution.design.pitch_waves in ((), reference.design.pitch_waves)
     other = reference.power.total
-    pieces = change_pieces(change, within, than, other, now.units, known=known, built=built)
+    menu = _design_menu(now, state)
+    pieces = change_pieces(
+        change, within, than, other, now.units, known=known, menu=menu, built=built
+    )
     if not built:
         pieces.append(LinePiece("; no actuator on board makes this", "unbuilt"))
     return pieces
+
+
+def _design_menu(now: PageState, state: SessionState) -> LineMenu:
+    """The designs that the one on the sliders can be compared with: the blade as built, A, and the bookmarks."""
+    pinned = now.pins.pinned
+    built = than_words(state.solution.design, state.baseline.design, pinned=False)
+    options = [LineOption(built, "compare", BUILT, pinned is None)]
+    marked = [kept.inputs for kept in now.kept]
+    if pinned is None:
+        options.append(LineOption("this design: keep it as A", "compare", THIS))
+    elif pinned.inputs not in marked:
+        title = title_words(pinned.solution.design)
+        options.append(LineOption(f"A: {title}", "compare", "a", chosen=True))
+    for k, inputs in enumerate(marked):
+        chosen = pinned is not None and pinned.inputs == inputs
+        title = f"bookmark: {title_words(inputs.design())}, {flight_name(inputs, now.units)}"
+        options.append(LineOption(title, "compare", k, chosen))
+    return LineMenu("than", "Compared with", options)
+
+
+def compare(now: PageState, wanted: str | int) -> tuple[Effect, ...]:
+    """Compare with the blade as built, with the present design as A, or with a bookmark, by its place."""
+    if wanted == BUILT:
+        return () if now.pins.pinned is None else (PinOrder("unpin"),)
+    if wanted == THIS:
+        return (PinOrder("pin"),)
+    if isinstance(wanted, int) and wanted < len(now.kept):
+        return (PinDesign(now.kept[wanted].inputs),)
+    return ()
 
 
 def line_text(now: PageState) -> str:
@@ -155,4 +237,4 @@ def view(now: PageState) -> dict[str, Any]:
     return {"line": line(now)}
 
 
-LINE = Panel(view, works=works)
+LINE = Panel(view, works=works, presses={"compare": compare, "against": choose})

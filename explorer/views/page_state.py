@@ -9,6 +9,7 @@ from explorer.charts.plots import PowerCurve, Range
 from explorer.model.actuator_inputs import HandSettings
 from explorer.model.inputs import Inputs, ViewState, with_optimum
 from explorer.model.session_state import Analyses, Mode, Order, Pins, SessionState
+from explorer.model.undo import KeptDesign
 from explorer.model.units import SI, Units, units_of
 from explorer.parts.frame import NoticePart
 from explorer.parts.results import LeastPower
@@ -77,6 +78,8 @@ class PageState:
     """Why the present inputs have no solution, in one sentence; empty where they have one."""
     ui: OpenPanels = OpenPanels()
     pins: Pins = field(default_factory=Pins)
+    kept: tuple[KeptDesign, ...] = ()
+    """The bookmarks, oldest first."""
     steps: tuple[bool, bool] = (False, False)
     """Whether there is a step to undo, and one to redo."""
     hand: HandSettings = field(default_factory=HandSettings)
@@ -213,7 +216,14 @@ class PinOrder:
     order: Order
 
 
-Effect = MoveSliders | SetGrabbed | SetHand | SetAddress | PinOrder
+@dataclass(frozen=True)
+class PinDesign:
+    """Make these inputs A, whatever is on the sliders."""
+
+    inputs: Inputs
+
+
+Effect = MoveSliders | SetGrabbed | SetHand | SetAddress | PinOrder | PinDesign
 Press = Callable[[PageState, Any], tuple[Effect, ...]]
 """What a press does, from what is known now and the value that came with it."""
 

@@ -67,7 +67,8 @@
           Vibration: mean and range over inflow models, blades bend.`)}
         ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
           'On all blades and in the cabin')}
-        ${column('by schedule, over the mission', `<b class="rxf-num">${text(one.flight || '…')}</b>`,
+        ${column(`by schedule, over the <button data-mission title="Set its hours">mission</button>`,
+          `<b class="rxf-num">${text(one.flight || '…')}</b>`,
           text(one.flights), 'The same for every setting here. ± is one standard deviation.')}
       </div>
       <p class="rxf-pays"><span data-explorer="said">${text(one.sentence)} </span>${text(one.problem)} ${pays}</p>`);

@@ -159,6 +159,16 @@
     card.querySelector('[data-explorer=tip-twist]').textContent = tip;
   }
 
+  // The word mission in the verdict leads to its hours, which are edited here only.
+  addEventListener('click', event => {
+    if (!closest(event, '[data-mission]')) return;
+    if (RX.small.matches) RX.showTab('charts', true);
+    const field = card.querySelector('[data-hours]');
+    if (!field.checkVisibility()) document.querySelector('.rxf-open [data-unfold=flight]').click();
+    field.focus();
+    field.select();
+  });
+
   let listed = false;  // The table of kinds was asked for, which stands among the controls.
   addEventListener('click', event => { listed ||= Boolean(closest(event, '[data-explorer=kinds]')); }, true);
   // One waterfall: where the power goes. Or the line where an actuator pays for itself.

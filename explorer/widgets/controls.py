@@ -14,10 +14,10 @@ from explorer.model.inputs import (
     FLIGHT,
     INFLOW_MENUS,
     LAWS,
-    NOT_ALWAYS,
     PRESET_TITLES,
     ROWS,
     Inputs,
+    law_titles,
     menu_titles,
     preset_inflow,
     reference_mass_t,
@@ -74,7 +74,7 @@ class DesignControls:
         form = self.form = WidgetForm(gui, self._heard, ROWS, at_once=True)
         curve = tag("div.rxp-curve", data_curve=True)
         gui.add_html(tag("div.rxp-head", "BUILT-IN TWIST", tag("span", "rates in °/R")) + curve)
-        form.menu("law", "Twist concept", _laws_of(start), start.law)
+        form.menu("law", "Twist concept", law_titles(start), start.law)
         self._sliders(_LAW_INPUTS, LAWS[start.law].inputs)
         self._speed = gui.add_html(_flight_heading(0.0, SI))
         self._sliders(FLIGHT, _ALWAYS)
@@ -100,6 +100,7 @@ class DesignControls:
                 self._costs[name] = gui.add_html("")
         self.optimise_button = gui.add_button("Optimise this blade", hint=hint("optimise"))
         bridge.on("rotor", self._choose_rotor)
+        bridge.on("law", self._choose_law)
         bridge.on("flown", self._set_measured)
         bridge.on("more", self._show_more)
 
@@ -160,7 +161,7 @@ class DesignControls:
     def _place(self, inputs: Inputs) -> None:
         """Move the widgets, under the lock."""
         self._special = inputs
-        self.form.offer("law", _laws_of(inputs), inputs.law)
+        self.form.offer("law", law_titles(inputs), inputs.law)
         self.stand.place(inputs)
         for name, row in ROWS.items():
             if row.slider is None:
@@ -248,6 +249,11 @@ class DesignControls:
             self.pauses.moved(time.monotonic())
             self.set_inputs(with_rotor(self.inputs(), name))
 
+    def _choose_law(self, law: str) -> None:
+        """Another twist law of the menu, as a hand chooses it there."""
+        if law in law_titles(self.inputs()):
+            self.change(law=law)
+
     def _set_measured(self, case: str) -> None:
         """Set a measured flight or test of this rotor, by its name."""
         condition = condition_of(self.inputs().rotor, case)
@@ -297,12 +303,3 @@ def _fold(folded: Iterable[str], more: bool, chosen: bool) -> Markup:
 
 
 _LAW_INPUTS = tuple(name for law in LAWS.values() for name in law.inputs)
-
-
-def _laws_of(inputs: Inputs) -> dict[str, str]:
-    """The menu of laws: those that are not always there only where `inputs` hold them."""
-    return {
-        key: law.title
-        for key, law in LAWS.items()
-        if key not in NOT_ALWAYS or getattr(inputs, key) is not None
-    }

@@ -1,7 +1,9 @@
 """Undo, redo, and the kept designs; a click goes to one."""
 
+import math
 import threading
 from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -25,8 +27,17 @@ FIELD = "Take design"
 """Label of the text field that clicks are written to: `take 1`, `drop 1`."""
 MOST_KEPT = 8
 _SPARK = 46.0, 18.0
-Step = tuple[Inputs, ActuatorInputs | None]
-"""What sliders and Actuate have; None, of a page that opens or was loaded again: the actuator stays as it is."""
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A of A/B, with which a step compares; None where nothing is pinned."""
+
+    inputs: Inputs | None
+
+
+Step = tuple[Inputs, ActuatorInputs | None, Compared | None]
+"""What sliders, Actuate and A have; None, of a page that opens or was loaded again: actuator and A stay as they are."""
 
 
 def kept_rows(kept: Sequence[KeptDesign], units: Units = SI) -> Markup:
@@ -65,6 +76,12 @@ def _spark(solution: Solution) -> Markup:
     return tag("svg", zero, twist, width=width, height=height)
 
 
+def _apart(steps: Sequence[Inputs], present: Inputs) -> tuple[Inputs, ...]:
+    """Steps on the way to the present, without those whose inputs the next one has: actuator and A are not stored."""
+    following = (*steps, present)[1:]
+    return tuple(one for one, after in zip(steps, following, strict=True) if one != after)
+
+
 class HistoryPanel:
     """The history of a session. Buttons act at once, on any thread; steps are taken on the session's worker."""
 
@@ -83,9 +100,10 @@ class HistoryPanel:
         self._lock = threading.RLock()
         before = share.read_history(stored, start)
         past, future = (
-            [Step((one, None)) for one in steps] for steps in (before.past, reversed(before.future))
+            [Step((one, None, None)) for one in steps]
+            for steps in (before.past, reversed(before.future))
         )
-        self._history = History[Step]((start, None), past, future)
+        self._history = History[Step]((start, None, None), past, future)
         self._stored = stored
         self._kept: list[KeptDesign] = []
         self._waiting = list(before.bookmarks)
@@ -128,12 +146,17 @@ class HistoryPanel:
             self._note()
             self._move(self._history.redo())
 
+    def note_pinned(self) -> None:
+        """A became another design: that is a step of its own."""
+        with self._lock:
+            self._note(math.inf)
+
     def _note(self, pause: float = 0.0) -> None:
         """What was moved since the last update is a step too."""
-        present, actuator = self._history.present
-        if actuator is None:
-            self._history.present = present, self._actuator()
-        self._history.note((self._context.inputs(), self._actuator()), pause)
+        present, actuator, compared = self._history.present
+        now = (self._context.inputs(), self._actuator(), Compared(self._context.pinboard.inputs))
+        self._history.present = (present, actuator or now[1], compared or now[2])
+        self._history.note(now, pause)
 
     def _actuator(self) -> ActuatorInputs:
         """As a hand set it: drives that follow the flight are no steps."""
@@ -157,11 +180,10 @@ class HistoryPanel:
                 self._history,
                 (*self._waiting, *(item.inputs for item in self._kept)),
             )
-            future = tuple(reversed(history.future))
-            past, future = (
-                tuple(inputs for inputs, _ in steps) for steps in (history.past, future)
-            )
-            kept = StoredHistory(past, history.present[0], future, bookmarks)
+            present = history.present[0]
+            past = _apart([inputs for inputs, *_ in history.past], present)
+            future = tuple(reversed(_apart([inputs for inputs, *_ in history.future], present)))
+            kept = StoredHistory(past, present, future, bookmarks)
         text = kept.text()  # A hundred designs: nobody need wait for them.
         if text != self._stored:
             self._stored = text
@@ -202,9 +224,12 @@ class HistoryPanel:
 
     def _move(self, step: Step | None) -> None:
         """Move the widgets, under the lock; the mode stays."""
-        inputs, actuator = step or (None, None)
+        inputs, actuator, compared = step or (None, None, None)
         if actuator is not None and actuator != self._actuator():
             self._set_actuator(actuator)
+        if compared is not None and compared.inputs != self._context.pinboard.inputs:
+            self._context.pinboard.put_back(compared.inputs)
+            self._context.wake()
         if inputs is None or inputs == self._context.inputs():
             self._context.wake()
         else:
@@ -220,4 +245,4 @@ class HistoryPanel:
             kept = self._kept[which].inputs if which < len(self._kept) else None
             if kept is not None and verb == "drop":
                 del self._kept[which]
-            self._move((kept, None) if kept is not None and verb == "take" else None)
+            self._move((kept, None, None) if kept is not None and verb == "take" else None)

@@ -62,7 +62,8 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     assert page.locator('[data-explorer="pinned"]').is_visible()
     watched.reads("pinned", r"A\s*UH-60A · segments −14/−8 at 0\.5\s+" + begun)
     page.keyboard.press("Escape")
-    watched.says("against", ": same as A")
+    watched.says("than", ": same as")
+    watched.says("against", "A")
     watched.until(lambda: total_row(watched)[2:] == ["0.0", ""])
     # A and B are one blade: the overlay is its jig shape.
     watched.until(lambda: overlay_seen(watched))
@@ -77,7 +78,8 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     watched.says("total-power", b)
     assert re.fullmatch(r"[+−][\d.]+ ± [\d.]+", apart)
     assert word in ("sure", "likely", "unclear")
-    watched.reads("against", "than A")
+    watched.says("than", "than")
+    watched.says("against", "A")
     plain = watched.node("/rotor/disk/field")
     assert plain != disk
 
@@ -122,7 +124,7 @@ def test_pin_move_compare_swap_back_and_let_go(visit: Visit):
     page.wait_for_selector('[data-explorer="ab"]', state="detached")
     page.wait_for_function("() => !RX.state.bar.pinned")
     watched.until_changed(lambda: overlay_seen(watched), False)  # Of the blade as built.
-    watched.reads("against", "than as built")
+    watched.says("against", "as built")
     watched.until(lambda: "B − A" not in page.locator('[data-part="unit"]').inner_text())
     page.get_by_role("button", name="Show B − A").wait_for(state="detached")
     page.wait_for_function(f"() => !({_BESIDE_A})")

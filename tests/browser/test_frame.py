@@ -13,7 +13,8 @@ SIZE = (1500, 940)
 def test_it_opens_as_built_with_one_prompt_that_the_first_edit_ends(visit: Visit):
     watched = visit(size=SIZE)
     as_built = watched.reads(
-        "line", r"^The UH-60A of 8\.32 t at µ 0\.200 with its twist as built needs \d+ ± \d+ kW"
+        "line",
+        r"^The UH-60A of 8\.32 t at µ 0\.200 \(159 km/h\) with its twist as built needs \d+ ± \d+ kW",
     )
     watched.says("prompt", "Drag the blade tip up or down")
     watched.press("Δ outboard", "ArrowRight", 3)

@@ -4,13 +4,14 @@ import asyncio
 import logging
 from collections.abc import Callable, Coroutine, Iterator
 from dataclasses import replace
+from itertools import pairwise
 from typing import Any
 
 import pytest
 
 from explorer.app import App
 from explorer.model import undo
-from explorer.model.inputs import OPENING
+from explorer.model.inputs import OPENING, Inputs
 from explorer.page import Page
 from explorer.parts.presses import PRESSES
 from explorer.sharing.game import Game
@@ -30,7 +31,7 @@ SENT: dict[str, Any] = {
     "against": "best-fixed", "state": "stopped", "section": [0.8, 90.0], "map_at": [0.2, 0.8], "pull": 0.5,
     "covered": [0.1, 0.2, 0.3, 0.0], "view": "disk", "colours": "Rescale", "lecture": "next",
     "knot": ["2", [None, -5.0]], "dial": [[3, 1.0, 60.0]],
-    "kind": "AFC", "hours": [2, 1.5], "scene": "lost", "seen": True,
+    "kind": "AFC", "law": "linear", "compare": "this", "hours": [2, 1.5], "scene": "lost", "seen": True,
 }  # fmt: skip
 """A value for each press that has one."""
 BEGUN = "Δ inboard [°/R]"
@@ -144,6 +145,41 @@ def test_presses_change_the_page(app: App):
             assert name == "mode" or (name, flown(page)) != (name, before)
 
     visited(app, press)
+
+
+def test_each_choice_in_the_line_is_one_step_however_soon_they_follow(app: App):
+    """Also what is compared with: undo unpins A, and pins it again."""
+
+    async def choose(visitor: Visitor, page: Page) -> None:
+        def stands() -> tuple[str, Inputs | None, str]:
+            actuator = page.actuator.inputs().actuator
+            return page.context.inputs().law, page.context.pinboard.inputs, actuator
+
+        chosen: list[tuple[str, str | int]] = [
+            ("law", "linear"),
+            ("law", "two"),
+            ("compare", "this"),
+        ]
+        chosen += [("law", "linear"), ("compare", "built"), ("kind", "AFC"), ("kind", "SMA_tube")]
+        seen = [stands()]
+        await visitor.press("mode", "actuate")
+        for name, value in chosen:
+            for press in (("hold", True), (name, value), ("hold", False)):
+                await visitor.press(*press)
+            await visitor.idle(wholly=False)
+            seen.append(stands())
+        assert all(one != other for one, other in pairwise(seen))
+        for before in reversed(seen[:-1]):
+            await visitor.press("undo")
+            await visitor.idle(wholly=False)
+            assert stands() == before
+        assert not visitor.frame["bar"]["undo"]
+        for after in seen[1:]:
+            await visitor.press("redo")
+            await visitor.idle(wholly=False)
+            assert stands() == after
+
+    visited(app, choose)
 
 
 @pytest.mark.slow

@@ -127,7 +127,7 @@ def test_without_matplotlib_the_system_has_a_font(monkeypatch: pytest.MonkeyPatc
 
 
 def test_no_line_of_a_picture_is_but_a_unit():
-    line = "The UH-60A of 8.32 t at µ 0.200 with its twist as built needs 903 ± 76 kW."
+    line = "The UH-60A of 8.32 t at µ 0.200 (159 km/h) with its twist as built needs 903 ± 76 kW."
     (first, second), _ = headline(line, SHAPES["4:3"] - 80)
     assert f"{first} {second}" == line
     assert len(second) > 0.7 * len(first)

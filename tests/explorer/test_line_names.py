@@ -231,7 +231,7 @@ def test_mass_as_flown_stands_in_two_parts():
     carried = now.state.solution.design.rotor.blade.carried
     assert carried is not None
     assert line_text(now).startswith(
-        "The UH-60A of 8.32 + 0.13 t at µ 0.200, twist as built, with MFC P1 at 60"
+        "The UH-60A of 8.32 + 0.13 t at µ 0.200 (159 km/h), twist as built, with MFC P1 at 60"
     )
     assert flown == pytest.approx(8320.0 + 130.0, abs=10.0)
     for units, size in ((SI, 1e3), (AVIATION, 0.45359237)):

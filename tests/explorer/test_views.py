@@ -196,8 +196,10 @@ def test_axes_hold_while_the_data_fit():
 def test_the_change_from_the_reference_and_why():
     assert power_card(now_at(CHANGED))["power"].why.startswith("Lift moved")
     built = f"{1e-3 * solved(OPENING).power.total:.0f}"
-    assert pieces(now_at(CHANGED))["against"].text == f" than as built ({built})"
-    assert pieces(now_at(CHANGED, OPENING))["against"].text == f" than A ({built})"
+    for pinned, name in ((None, "as built"), (OPENING, "A")):
+        shown = pieces(now_at(CHANGED, pinned))
+        said = [shown[part].text for part in ("than", "against", "reference")]
+        assert "".join(said) == f" than {name} ({built})"
     assert power_card(now_at(OPENING))["power"].why == ""
     assert not pieces(now_at(OPENING)).keys() & {"moved", "against"}
 
@@ -208,7 +210,7 @@ class TestWithoutATrim:
         lost = replace(good, problem=SENTENCE)
         assert line(lost).problem == SENTENCE
         assert line(lost).status.kind == "problem"
-        assert pieces(lost).keys() == {"", "wide", "problem"}
+        assert pieces(lost).keys() == {"", "wide", "airspeed", "problem"}
         assert pieces(lost)["problem"].text == f" has no trim: {SENTENCE.rstrip('.')}"
         assert power_card(lost) == power_card(good)
         assert {one.stale for one in strip(lost)["strip"]} == {True}
@@ -344,7 +346,8 @@ def test_less_power_by_a_twist_that_nothing_on_board_makes_is_not_green():
     shown = pieces(soon(now_at(saving)))
     assert shown["more"].text == " less"
     assert shown["moved"].kind == ""
-    assert shown["against"].text == f" than as built ({number(1405.0)})"
+    assert shown["against"].text == "as built"
+    assert shown["reference"].text == f" ({number(1405.0)})"
     assert shown["unbuilt"].text == "; no actuator on board makes this"
     built = replace(OPENING, advance_ratio=0.3, built_outer=-2.0)
     assert "actuator" not in line_text(soon(now_at(built)))

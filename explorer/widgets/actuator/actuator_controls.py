@@ -24,10 +24,12 @@ class ActuatorControls:
         self,
         gui: viser.GuiApi,
         hours: tuple[float, ...],
+        against: Against,
         moved: Callable[[], None],
         driven: Callable[[], None],
     ) -> None:
-        """`hours`: of the mission, at first. `moved`: something changed. `driven`: a hand moved a voltage."""
+        """`hours`: of the mission, at first; `against`: what changes count from, at first. `moved`: something changed.
+        `driven`: a hand moved a voltage."""
         self._moved, self._driven = moved, driven
         self._placing = threading.RLock()
         """Held while widgets are read or moved together: nobody reads half of a change, which undo would take apart."""
@@ -37,7 +39,7 @@ class ActuatorControls:
             texts[name] = gui.add_html("")
 
         start = ActuatorInputs()
-        self._against: Against = start.against
+        self._against: Against = against
         self._hours = hours
         form = self.form = WidgetForm(gui, self._heard)
         text("verdict")

@@ -9,12 +9,13 @@ from explorer.model.actuator_inputs import (
     HandSettings,
     Outcome,
     hours_text,
+    read_against,
     read_hours,
     verdict_inputs_of,
     verdict_tasks,
 )
 from explorer.picture.lifted_picture import flown_twist, lifted_picture
-from explorer.sharing.share import HOURS, Address
+from explorer.sharing.share import AGAINST, HOURS, Address
 from explorer.views.flight import BY_HAND, after_flight
 from explorer.views.page_state import SetAddress, SetHand
 from explorer.views.pay import SUPPOSED, read_place
@@ -24,6 +25,7 @@ from explorer.widgets.context import TabContext
 from explorer.workers import solver
 from explorer.workers.background import all_known
 from rotor import Design, Solution
+from rotor.actuator.verdict import Against
 from rotor.dynamics.structure import KNOWN_BLADE, check_blade
 from rotor.optimisation.mission import ASSUMED_HOURS
 
@@ -32,12 +34,15 @@ class ActuatorPanel:
     """What is shown of it are panels of `explorer/views`."""
 
     def __init__(self, context: TabContext, address: Address) -> None:
-        """`address` may hold a supposed actuator, and the hours of the mission."""
+        """`address` may hold a supposed actuator, the hours of the mission, and what changes count from."""
         self._context, self._address = context, address
         self.blade = LiftedScene(context.client, context.bridge)
         context.leaving.append(self.blade.stop)
         place = address.read(SUPPOSED, read_place, None, "Link: supposed actuator not used")
         hours = address.read(HOURS, read_hours, ASSUMED_HOURS, "Link: mission not used")
+        against: Against = address.read(
+            AGAINST, read_against, ActuatorInputs.against, "Link: comparison not used"
+        )
         self._hand, self._lock = (
             HandSettings(on_stage=place is not None, place=place),
             threading.Lock(),
@@ -53,7 +58,7 @@ class ActuatorPanel:
         self._pays = False
         """Whether the supposed actuator pays: its blade lights green."""
         self.controls = ActuatorControls(
-            context.gui, hours, context.wake, lambda: self._set(**BY_HAND)
+            context.gui, hours, against, context.wake, lambda: self._set(**BY_HAND)
         )
         self.texts = {**self.controls.texts, "actuator.pays": self._light}
         self.inputs = self.controls.inputs
@@ -73,10 +78,13 @@ class ActuatorPanel:
         if effect.actuator:
             self.controls.place(effect.actuator)
 
-    def write_hours(self) -> None:
-        """Put the hours of the mission into the address; those that are assumed need no place in it."""
-        hours = self.inputs().hours
+    def write_address(self) -> None:
+        """Put the hours of the mission and what changes count from into the address, where they are not as usual."""
+        inputs = self.inputs()
+        hours = inputs.hours
         self._address[HOURS] = None if hours == ASSUMED_HOURS else hours_text(hours)
+        usual = inputs.against == ActuatorInputs.against
+        self._address[AGAINST] = None if usual else inputs.against
 
     def _set(self, **changes: Any) -> None:
         with self._lock:  # Widgets and presses have threads of their own.
