@@ -28,7 +28,7 @@ _SHOWN = "powers on the scale"
 
 
 @dataclass(frozen=True)
-class _Flown:
+class _BladePower:
     """One blade in this flight; its design and power [W] are None while they are not known."""
 
     name: str
@@ -75,7 +75,7 @@ def remember_powers(now: PageState) -> Mapping[str, Any]:
     return {_SHOWN: {name: pair for name, pair in known.items() if pair[0] is not None}}
 
 
-def _blades(now: PageState) -> tuple[_Flown, ...]:
+def _blades(now: PageState) -> tuple[_BladePower, ...]:
     """The blades that are compared, in this flight; without one of which it is known that there is none."""
     blade = actuated_blade(now)
     if blade is None:
@@ -84,16 +84,16 @@ def _blades(now: PageState) -> tuple[_Flown, ...]:
     at_rest = replace(blade.inputs, drives=AT_REST)
     by_hand = _by_hand(now)
     found = [
-        _Flown("without it", bare),
-        _Flown("at rest", at_rest.apply(bare)),
-        _Flown(STATES["set"], by_hand.apply(blade.design)),
+        _BladePower("without it", bare),
+        _BladePower("at rest", at_rest.apply(bare)),
+        _BladePower(STATES["set"], by_hand.apply(blade.design)),
     ]
     if not isinstance(blade.flight, str) and not isinstance(blade.outcome, str):
-        found.append(_Flown(STATES["schedule"], _scheduled(blade)))
+        found.append(_BladePower(STATES["schedule"], _scheduled(blade)))
     if now.hand.stopped:
-        found.append(_Flown(STATES["stopped"], blade.inputs.apply(blade.design)))
+        found.append(_BladePower(STATES["stopped"], blade.inputs.apply(blade.design)))
     if not isinstance(blade.outcome, str):
-        found.append(_Flown("best fixed blade", _best_fixed(blade, bare)))
+        found.append(_BladePower("best fixed blade", _best_fixed(blade, bare)))
     return tuple(found)
 
 
@@ -122,10 +122,10 @@ def _best_fixed(blade: ActuatedBlade, bare: Design) -> Design | None:
     return replace(bare, twist=blade.verdict.baseline.fixed_twist)
 
 
-def _powers(now: PageState) -> tuple[_Flown, ...]:
+def _powers(now: PageState) -> tuple[_BladePower, ...]:
     """The blades with their powers; where one is not known, with the last of its name."""
     last = now.memory.latest.get(_SHOWN, {})
-    found = list[_Flown]()
+    found = list[_BladePower]()
     for each in now.of(_blades):
         pair = _power(now, each.design)
         if pair is not None:
@@ -179,9 +179,9 @@ def _call(now: PageState, design: Design | None) -> Call | None:
     return Call(powers, ((reference, design),))
 
 
-def _grouped(ordered: list[_Flown]) -> list[list[_Flown]]:
+def _grouped(ordered: list[_BladePower]) -> list[list[_BladePower]]:
     """Blades that are one design, together."""
-    groups = list[list[_Flown]]()
+    groups = list[list[_BladePower]]()
     for each in ordered:
         same = [group for group in groups if group[0].design == each.design and not each.stale]
         if each.design is not None and same and not same[0][0].stale:
@@ -191,7 +191,7 @@ def _grouped(ordered: list[_Flown]) -> list[list[_Flown]]:
     return groups
 
 
-def _mark(group: list[_Flown], now: PageState) -> PowerMark:
+def _mark(group: list[_BladePower], now: PageState) -> PowerMark:
     """The mark of blades that are one design."""
     unit = now.units.power[0]
     first = group[0]
@@ -207,7 +207,7 @@ def _mark(group: list[_Flown], now: PageState) -> PowerMark:
     )
 
 
-def _ends(known: list[_Flown], units: Units) -> tuple[float, float]:
+def _ends(known: list[_BladePower], units: Units) -> tuple[float, float]:
     """Ends of the axis, in the unit of the page."""
     unit = units.power[0]
     low = min(unit.of((each.power or 0.0) - each.band) for each in known)
