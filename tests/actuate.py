@@ -67,7 +67,8 @@ def answered(
     now = told(ACTUATOR_CARD, now, other_stroke=run(asked(ACTUATOR_CARD, now)["other_stroke"]))
     effects = {call: run(call) for call in DIAL.asks(now)[0].calls}
     now = replace(now, answers={**now.answers, **effects})
-    now = worked(ACTUATOR_CARD, worked(DIAL, now))
+    scale = {call: run(call) for call in ACTUATOR_CARD.asks(now)[0].calls}
+    now = worked(ACTUATOR_CARD, worked(DIAL, replace(now, answers={**now.answers, **scale})))
     doubts = {task.key: at_once(task.run(lambda: None)) for task in works(now)}
     now = replace(now, answers={**now.answers, **doubts})
     flown = replace(now, hand=done(now, FLIGHT.presses["balance"](now, "here")).hand)

@@ -142,10 +142,10 @@ def test_the_answer_on_actuators_is_that_of_the_page(place: str):
     now = actuate(OPENING, actuator=inputs)
     verdict = asked(ACTUATOR, now)["lean_verdict"].run()
     (card,) = [ACTUATOR_CARD.view(told(ACTUATOR, now, lean_verdict=verdict))["assessed"]]
-    shown = re.search(r"([\d.]+) ± ([\d.]+) kW more \((.+?)\)", str(card))
+    shown = re.fullmatch(r"([\d.]+ ± [\d.]+ kW) more", card.earns)
     assert shown is not None
-    said(f"{shown[1]} ± {shown[2]} kW")
-    said(f"All are {shown[3]}.")
+    said(shown[1])
+    said(f"All are {card.sure}.")
     found = answers.row_of(verdict)
     assert found["exceeded"] == row["exceeded"] != []
     assert found["net_saving_w"] == pytest.approx(row["net_saving_w"], abs=30.0)

@@ -116,23 +116,54 @@ class EarnsPart:
 
 
 @dataclass(frozen=True)
-class AssessedPart:
-    """The actuator as set, in words: what it moves and costs, and gives over the mission.
+class PowerMark:
+    """A power on the scale: its name, its value in words and in the unit of the scale.
 
-    `tip`, `reach`: twist at the tip in flight. `masses`: name and kilograms of each part. `flight`: what it gives by
-    schedule over the mission, or why it cannot work; `flights`: the mission, and what it would give. `vibration`: of
-    this flight. `over`: limits that are exceeded, `required`: those that only the best twist would exceed; `feasible`:
-    what a press changes so that it can be built. `baselines`: name and title of each blade that changes may count from;
-    `against`: the name of the one that they do. `sentence`: all of it. `pays`: words, and every second one a number
-    with which it would pay, the other as it is: `range` of twist [°], `kilograms`.
+    `value` is empty and `at` None while it is computed; `stale`: it is that of the inputs before. `band`: of its change
+    from the blade that changes count from, 0: not known. `flown`: this is what flies now.
     """
 
+    name: str
+    value: str
+    at: float | None
+    band: float = 0.0
+    stale: bool = False
+    flown: bool = False
+
+
+@dataclass(frozen=True)
+class PowerScale:
+    """The powers of this flight on one axis, the smallest first; those that are computed stand last.
+
+    `ends`: of the axis. `sentence`: all of it, to be read aloud.
+    """
+
+    unit: str
+    ends: tuple[float, float]
+    marks: tuple[PowerMark, ...]
+    sentence: str
+
+
+@dataclass(frozen=True)
+class AssessedPart:
+    """The actuator as set, in one row: whether it can be built, what it moves, weighs, and earns over the mission.
+
+    `tip`, `reach`: twist at the tip in flight, `end`: the end of the reach that `tip` counts from. `earns`: change of
+    power over the `mission`, `sure`: how sure it is. `vibration`: of this flight. `over`: limits that are exceeded,
+    `required`: those that only the best twist would exceed; `feasible`: what a press changes so that it can be built.
+    `baselines`: name and title of each blade that changes may count from; `against`: the name of the one that they do.
+    `pays`: words, and every second one a number with which it would pay, the other as it is: `range` of twist [°],
+    `kilograms`.
+    """
+
+    buildable: str
     tip: str
+    end: str
     reach: str
     mass: str
-    masses: tuple[tuple[str, str], ...]
-    flight: str
-    flights: str
+    earns: str
+    sure: str
+    mission: str
     vibration: str
     problem: str
     over: tuple[str, ...]
@@ -140,7 +171,7 @@ class AssessedPart:
     feasible: str
     against: str
     baselines: tuple[tuple[str, str], ...]
-    sentence: str
+    scale: PowerScale | None
     pays: tuple[str, ...]
     range: float
     kilograms: float

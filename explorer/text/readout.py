@@ -527,6 +527,12 @@ def needs_words(net: float, band: float | None, units: Units, sourced: bool = Tr
     return f"{words} ({sure_words(net, band, sourced=sourced)})"
 
 
+def more_words(net: float, band: float | None, units: Units) -> str:
+    """A net saving [W] as a change of power, with its band [W]: `28 ± 3 kW more`."""
+    size = "".join(change_sizes(net, band, units))
+    return f"{size} {units.power[0].symbol} {'less' if net > 0.0 else 'more'}"
+
+
 _FUEL = Unit("kg/h of fuel", 1.0 / 3600.0)
 
 

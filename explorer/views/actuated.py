@@ -14,6 +14,7 @@ from explorer.model.actuator_inputs import (
     ActuatorInputs,
     Outcome,
     VerdictInputs,
+    as_it_comes,
     flight_legs,
     flight_of,
     verdict_inputs_of,
@@ -30,16 +31,24 @@ from rotor.actuator import (
     InstalledActuator,
     OtherStroke,
     Verdict,
+    actuators,
     effect,
     other_stroke,
     powers,
 )
 from rotor.actuator.harmonic import bending, pitching_power
+from rotor.actuator.limits import why_immovable
 from rotor.actuator.verdict import Against
 from rotor.design import TwistLaw
 from rotor.dynamics.structure import check_blade
 from rotor.optimisation import FlightLeg
 from rotor.trim.doubt import sureness
+
+_FREE_ROTOR = (
+    "A free rotor, turned by the wind, cannot hover, and actuators are computed for a mission that does: choose "
+    "another trim."
+)
+"""Why a free rotor carries no actuator."""
 
 
 def in_actuate(ui: OpenPanels) -> bool:
@@ -64,12 +73,47 @@ def problem(now: PageState) -> str:
     return now.units.in_sliders(now.problem, carried) or (found if isinstance(found, str) else "")
 
 
+def no_carrier(now: PageState) -> str:
+    """Why this rotor carries no actuator, and what to choose; empty where it may carry one."""
+    design = now.sliders
+    if design is None:
+        return ""
+    try:
+        check_blade(design.aircraft)
+    except ValueError as error:
+        return str(error)
+    if design.models.trim == "free-rotor":
+        return _FREE_ROTOR
+    return ""
+
+
+def immovable_kinds(now: PageState) -> Mapping[str, str]:
+    """Why each kind that cannot move this blade cannot, by kind: as it comes, the chosen one as it is set."""
+    blade = actuated_blade(now)
+    if blade is None:
+        return {}
+    found = dict[str, str]()
+    for id in actuators():
+        inputs = blade.inputs
+        if id != inputs.actuator:
+            inputs = replace(inputs, **as_it_comes(id))
+        try:
+            reason = why_immovable(inputs.installed(blade.design.rotor))
+        except ValueError:
+            # A kind that cannot be laid out there says so itself, once it is chosen.
+            continue
+        if reason:
+            found[id] = reason
+    return found
+
+
 def _built(now: PageState) -> "ActuatedBlade | str":
     design, inputs = now.sliders, now.hand.actuator
     if design is None:
         return now.problem
     try:
-        check_blade(design.aircraft)
+        if carrier := no_carrier(now):
+            return carrier
         installed, question = inputs.installed(design.rotor), verdict_inputs_of(inputs, design)
     except ValueError as error:
         return str(error)

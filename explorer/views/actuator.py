@@ -4,20 +4,24 @@ Above the widgets stands why there is no verdict; below them twist now, reach an
 """
 
 import math
-from collections.abc import Mapping
-from contextlib import suppress
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from explorer.model.actuator_inputs import MOST_SEGMENTS, ActuatorInputs
+from explorer.model.actuator_inputs import MOST_SEGMENTS
 from explorer.views import actuator_words as words
-from explorer.views.actuated import ActuatedBlade, actuated_blade, in_actuate, problem
+from explorer.views.actuated import (
+    ActuatedBlade,
+    actuated_blade,
+    immovable_kinds,
+    in_actuate,
+    no_carrier,
+    problem,
+)
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
 from rotor.actuator.catalogue import actuators
-from rotor.actuator.installation import InstalledActuator
-from rotor.dynamics.structure import KNOWN_BLADE
-from rotor.files.make_design import uh60a_rotor
+from rotor.support.markup import Markup
 
 _DELAY_S = 0.4
 """How long a question must stand before it is worked on [s], so that a dragged slider starts nothing."""
@@ -27,6 +31,20 @@ _FULL_DRIVE = 100.0
 """The whole voltage on its slider [%]."""
 DRIVES = tuple(f"drive {k}" for k in range(MOST_SEGMENTS))
 """Names of the sliders of voltage."""
+_WIDGETS = (
+    "actuator",
+    "plies",
+    "span",
+    *DRIVES,
+    "chord",
+    "blade",
+    "stiffness",
+    "crossed",
+    "concept",
+)
+"""Names of all widgets of the actuator, the sliders of voltage among them."""
+_TEXTS = "actuator.weak", "actuator.bar", "actuator.now"
+"""Names of the texts between them that are in no folder."""
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
@@ -34,7 +52,10 @@ def asks(now: PageState) -> tuple[Questions, ...]:
     them beside it."""
     if (one := actuated_blade(now)) is None:
         return ()
-    first, *others = one.tasks.values()
+    first, *_ = one.tasks.values()
+    chosen = one.question.actuator
+    hidden = {chosen, *now.of(immovable_kinds)}
+    others = [task for id, task in one.tasks.items() if id not in hidden]
     flown = one.flight is not None or isinstance(one.outcome, str)
     flight = () if one.flight_task is None else (one.flight_task,)
     beside = tuple(others) if flown and now.hand.on_stage else ()
@@ -46,14 +67,26 @@ def asks(now: PageState) -> tuple[Questions, ...]:
 
 
 def view(now: PageState) -> dict[str, Any]:
-    """Texts of the rail; where there is no such design, why, all else as it was."""
+    """Texts of the rail; where there is no such design, why, all else as it was.
+
+    A rotor that carries no actuator has the sentence that says why, and no widgets.
+    """
     one, state, inputs = actuated_blade(now), now.state, now.hand.actuator
-    form = _form(now, one)
+    carrier = no_carrier(now)
+    if carrier:
+        empty = dict.fromkeys(_TEXTS, Markup())
+        return {
+            "actuator.verdict": words.problem_panel(carrier),
+            **empty,
+            "actuator.form": FormLook(dict.fromkeys(_WIDGETS, False), {}, carried=False),
+        }
+    form = {} if one is None else {"actuator.form": form_look(one, tuple(now.of(immovable_kinds)))}
     if one is None or state is None or now.problem:
         return {"actuator.verdict": words.problem_panel(problem(now))} | form
     installed, verdict = one.installed, one.verdict
     return {
         "actuator.verdict": words.problem_panel(one.outcome),
+        "actuator.weak": words.immovable_panel(now.of(immovable_kinds), inputs.actuator),
         "actuator.bar": words.voltage_bar(installed.actuator),
         "actuator.now": words.now_panel(inputs, installed, now.inputs.twist_per_rev),
         "actuator.numbers": words.fit_panel(installed, verdict, now.units),
@@ -63,24 +96,33 @@ def view(now: PageState) -> dict[str, Any]:
 
 @dataclass(frozen=True)
 class FormLook:
-    """Which widgets of the actuator there are, and what they are called."""
+    """Which widgets of the actuator there are, what they are called, and which kinds their menu offers."""
 
     seen: Mapping[str, bool]
     labels: Mapping[str, str]
-    inert: bool = False
-    """Whether nobody may move them: no actuator fits this rotor."""
+    kinds: tuple[str, ...] = ()
+    carried: bool = True
+    """Whether this rotor carries an actuator: else there are no folders either."""
 
 
-def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
-    actuator, count = installed.actuator, len(installed.shapes)
+def form_look(blade: ActuatedBlade, immovable: Sequence[str] = ()) -> FormLook:
+    """The widgets for the actuator on the blade.
+
+    `immovable`: kinds that cannot move it, which the menu does not offer unless one of them is chosen.
+    """
+    inputs = blade.inputs
+    installed = blade.installed
+    actuator = installed.actuator
+    count = len(installed.shapes)
     word = actuator.drive_noun.capitalize()
     return FormLook(
-        {
+        seen={
+            **dict.fromkeys(_WIDGETS, True),
             **{name: k < count for k, name in enumerate(DRIVES)},
             **{name: name in actuator.settings for name in ("plies", "span", "chord", "crossed")},
             "stiffness": inputs.blade == "new",
         },
-        {
+        labels={
             **{
                 name: f"{word} {k + 1} [%]" if count > 1 else f"{word} [%]"
                 for k, name in enumerate(DRIVES)
@@ -90,23 +132,8 @@ def form_look(inputs: ActuatorInputs, installed: InstalledActuator) -> FormLook:
             "span": "Span {:.2f}–{:.2f}".format(*inputs.span),
             "chord": "Chord {:.2f}–{:.2f}".format(*inputs.chord),
         },
+        kinds=tuple(id for id in actuators() if id == inputs.actuator or id not in immovable),
     )
-
-
-def _form(now: PageState, one: ActuatedBlade | None) -> dict[str, FormLook]:
-    """The widgets; for a rotor that carries no actuator as on the blade that does, and inert."""
-    design, inputs, installed = (
-        now.sliders,
-        now.hand.actuator,
-        None if one is None else one.installed,
-    )
-    fits = design is None or design.aircraft.key == KNOWN_BLADE
-    if design is not None and not fits:
-        with suppress(ValueError):
-            installed = inputs.installed(uh60a_rotor(design.preset))
-    if installed is None:
-        return {}
-    return {"actuator.form": replace(form_look(inputs, installed), inert=not fits)}
 
 
 def pull(now: PageState, share: float | None) -> tuple[Effect, ...]:

@@ -1,7 +1,7 @@
 """Words, numbers and the drawn section of the Actuate mode; degrees, volts and kW begin here."""
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -9,7 +9,7 @@ from explorer.colours import css
 from explorer.model.actuator_inputs import ActuatorInputs, Outcome
 from explorer.model.units import SI, Units, number
 from explorer.picture.lifted_picture import drive_colour
-from explorer.text.readout import limit_words, mass_words
+from explorer.text.readout import limit_words
 from rotor.actuator.kind import Actuator, InstalledActuator, Limit
 from rotor.actuator.verdict import Verdict
 from rotor.design import Harmonic
@@ -67,7 +67,6 @@ def fit_panel(installed: InstalledActuator, verdict: Verdict | None, units: Unit
     """What the actuator is on this blade: known at once, but for what the verdict needs."""
     rest = math.degrees(float(np.abs(installed.rest_shapes[:, -1]).sum()))
     facts = [
-        mass_words(installed),
         f"range of tip twist {number(math.degrees(installed.attainable), 2)}° in flight, {number(rest, 2)}° at rest",
         f"first torsion at {number(installed.frequency, 2)}/rev",
         *([f"moment {number(installed.moment)} N·m"] if installed.moment else ()),
@@ -87,6 +86,31 @@ def problem_panel(outcome: Outcome | None) -> Markup:
     if not isinstance(outcome, str):
         return Markup()
     return tag("div.rxa-box.rxa-wrong", outcome, data_explorer="no-verdict")
+
+
+def immovable_panel(kinds: Mapping[str, str], chosen: str) -> Markup:
+    """The kinds that cannot move this blade, folded: why not, and a press that takes one all the same.
+
+    `kinds`: the reasons by kind; the `chosen` one stands in the menu.
+    """
+    others = {id: reason for id, reason in kinds.items() if id != chosen}
+    if not others:
+        return Markup()
+    many = len(others) > 1
+    summary = f"{len(others)} kind{'s' if many else ''} cannot move this blade"
+    rows = [
+        tag(
+            "li",
+            tag(
+                "button.rx-link", id.replace("_", " "), data_do="kind", data_value=id, type="button"
+            ),
+            f": {reason}",
+        )
+        for id, reason in others.items()
+    ]
+    return tag(
+        "details.rx.rxa-weak", tag("summary", summary), tag("ul", rows), data_explorer="weak-kinds"
+    )
 
 
 def limits_panel(verdict: Verdict | None) -> Markup:

@@ -1,13 +1,14 @@
-"""The card that says what the actuator as set moves, costs and gives."""
+"""The card of the actuator as set: a row of what it moves, weighs and earns, and the scale of power."""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 from explorer.model.actuator_inputs import AGAINST, ActuatorInputs
 from explorer.model.units import Units, number
 from explorer.parts.actuate import AssessedPart
-from explorer.text.readout import kilograms, limit_words, mass_parts, mission_words, needs_words
+from explorer.text.readout import kilograms, limit_words, mass_parts, mission_words, more_words
 from explorer.views.actuated import (
     ActuatedBlade,
     actuated_blade,
@@ -16,21 +17,40 @@ from explorer.views.actuated import (
     no_verdict,
 )
 from explorer.views.dial_answer import FittedBlade, peak_of
-from explorer.views.page_state import Effect, PageState, Panel, Questions, SetHand
+from explorer.views.page_state import (
+    Effect,
+    PageState,
+    Panel,
+    PanelMemory,
+    Questions,
+    SetHand,
+)
 from explorer.views.pay import mass_that_pays
+from explorer.views.power_scale import power_scale, remember_powers, scale_calls
 from rotor.actuator import OtherStroke
 from rotor.actuator.kind import MOST_BOUNDS, Limit
-from rotor.actuator.limits import limits
+from rotor.actuator.limits import limits, why_immovable
 from rotor.actuator.verdict import Against
 from rotor.dynamics.structure import structure_data
+from rotor.trim.doubt import sure_words
 
 _URGENCY, _DELAY_S = 6, 1.0
 """Of what would make it pay, behind all verdicts' chosen one; how long the question must stand [s]."""
+_SCALE_URGENCY, _SCALE_DELAY_S = 4, 0.4
+"""Of the powers on the scale: with the flight, behind the chosen verdict."""
 
 
 def asks(now: PageState) -> tuple[Questions, ...]:
     call = one.line_task if (one := actuated_blade(now)) is not None else None
-    return (Questions(_URGENCY, () if call is None else (call,), _DELAY_S),)
+    return (
+        Questions(_SCALE_URGENCY, scale_calls(now), _SCALE_DELAY_S),
+        Questions(_URGENCY, () if call is None else (call,), _DELAY_S),
+    )
+
+
+def remember(now: PageState, shown: Mapping[str, Any]) -> PanelMemory:
+    """The powers on the scale."""
+    return replace(now.memory, latest={**now.memory.latest, **remember_powers(now)})
 
 
 def _angle(radians: float) -> str:
@@ -42,6 +62,45 @@ def _reach(one: ActuatedBlade) -> str:
     if one.installed.too_weak:
         return ""
     return "…".join(map(_angle, one.inputs.reach(one.installed))).replace("°…", "…")
+
+
+def _end(one: ActuatedBlade) -> str:
+    """The end of the range on the side of the tip twist, of a tip at rest the larger; empty as `_reach`."""
+    if one.installed.too_weak:
+        return ""
+    tip = one.inputs.tip(one.installed)
+    low, high = one.inputs.reach(one.installed)
+    if not tip:
+        return _angle(max(low, high, key=abs))
+    return _angle(high if tip > 0.0 else low)
+
+
+def _buildable(one: ActuatedBlade, over: Sequence[str]) -> str:
+    """Whether it can be built, and what is in the way: `not buildable: 3 limits`; empty until that is known.
+
+    `over`: the limits that are exceeded.
+    """
+    reason = why_immovable(one.installed)
+    if reason:
+        return f"not buildable: {reason}"
+    if one.verdict is None:
+        return ""
+    if not over:
+        return "buildable"
+    return f"not buildable: {len(over)} limit{'s' if len(over) > 1 else ''}"
+
+
+def _earns(one: ActuatedBlade, units: Units) -> tuple[str, str]:
+    """Its change of power over the mission, and how sure that is: `18 ± 4 kW more`, `likely, from estimated data`."""
+    verdict = one.verdict
+    if verdict is None:
+        return "", ""
+    saving = verdict.net_saving
+    band = verdict.net_band
+    sure = "" if band is None else sure_words(saving, band, sourced=one.sourced)
+    if one.installed.actuator.forbidden:
+        sure = ", ".join(filter(None, (sure, "if it could work")))
+    return more_words(saving, band, units), sure
 
 
 def _vibration(one: ActuatedBlade) -> str:
@@ -58,35 +117,16 @@ def _vibration(one: ActuatedBlade) -> str:
     return f"vibration {mean} % ({low}…{high})"
 
 
-def _gives(one: ActuatedBlade, units: Units) -> str:
-    """Over its mission."""
-    whole = one.over_flight
-    return "" if whole is None else needs_words(-whole.power, whole.band, units, one.sourced)
-
-
-def _sentences(one: ActuatedBlade, units: Units) -> tuple[str, tuple[str, ...]]:
-    """What it moves, costs and gives; and what would make it pay: words, and every second one a number to drag."""
-    total, flight, verdict = mass_parts(one.installed)["in all"], one.over_flight, one.verdict
-    moves = f"{total} on board; {_moves(one)}."
-    forbidden = one.installed.actuator.forbidden
-    moves += f" It is {forbidden}." if forbidden else ""
-    if flight is not None:
-        could = "If it could work, by" if forbidden else "By"
-        moves += f" {could} schedule it {_gives(one, units)} over the mission."
-    mass = None if verdict is None else verdict.mass_allowed
+def _pays(one: ActuatedBlade) -> tuple[str, ...]:
+    """What would make it pay: words, and every second one a number to drag."""
+    flight = one.over_flight
+    mass = None if one.verdict is None else one.verdict.mass_allowed
     if flight is None or mass is None or one.installed.too_weak:
-        return moves, ()
+        return ()
     if not mass:
-        return moves, ("It would not pay, however light.",)
+        return ("It would not pay, however light.",)
     pays = "pays" if flight.power < 0.0 else "would pay"
-    return moves, _pays_where(one, one.line, mass, pays)
-
-
-def _moves(one: ActuatedBlade) -> str:
-    """The tip twist as set and its range."""
-    if one.installed.too_weak:
-        return "it moves 0.00°: far too weak"
-    return f"tip turned by {_angle(one.inputs.tip(one.installed))} of {_reach(one)}"
+    return _pays_where(one, one.line, mass, pays)
 
 
 def _pays_where(
@@ -154,21 +194,21 @@ def _far_above(limit: Limit, digits: int) -> str:
 
 
 def card(now: PageState) -> dict[str, AssessedPart | None]:
-    """Three columns and the sentence."""
+    """The row, the scale, and what is behind them."""
     if (one := actuated_blade(now)) is None:
         return {} if now.problem else {"assessed": None}
-    units, against = now.units, one.inputs.against
-    *parts, (_, total) = mass_parts(one.installed).items()
-    (sentence, pays), (over, required) = _sentences(one, units), _over(one)
-    forbidden, gives = one.installed.actuator.forbidden, _gives(one, units)
-    could = f"if it could work: {gives}, " if forbidden else ""
+    against = one.inputs.against
+    over, required = _over(one)
+    earns, sure = _earns(one, now.units)
     part = AssessedPart(
+        buildable=_buildable(one, over),
         tip=_angle(one.inputs.tip(one.installed)),
+        end=_end(one),
         reach=_reach(one),
-        mass=total,
-        masses=tuple(parts),
-        flight=forbidden or gives,
-        flights="" if one.verdict is None else f"{could}{mission_words(one.question.mission)}",
+        mass=mass_parts(one.installed)["in all"],
+        earns=earns,
+        sure=sure,
+        mission="" if one.verdict is None else mission_words(one.question.mission),
         vibration=_vibration(one),
         problem=no_verdict(now),
         over=over,
@@ -176,8 +216,8 @@ def card(now: PageState) -> dict[str, AssessedPart | None]:
         feasible=_change_words(one, now.of(feasible)),
         against=against,
         baselines=tuple((each, against_words(one, each)) for each in AGAINST),
-        sentence=sentence,
-        pays=pays,
+        scale=power_scale(now),
+        pays=_pays(one),
         range=round(math.degrees(one.range), 2),
         kilograms=round(one.mass, 1),
     )
@@ -234,4 +274,10 @@ def make_feasible(now: PageState, _: Any) -> tuple[Effect, ...]:
     )
 
 
-ACTUATOR_CARD = Panel(card, blade_out, asks, presses={"feasible": make_feasible})
+ACTUATOR_CARD = Panel(
+    card,
+    blade_out,
+    asks,
+    remember=remember,
+    presses={"feasible": make_feasible},
+)

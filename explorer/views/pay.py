@@ -30,6 +30,7 @@ from explorer.views.actuated import (
     PowerChange,
     actuated_blade,
     against_words,
+    immovable_kinds,
     in_actuate,
     no_verdict,
 )
@@ -75,8 +76,10 @@ def _kinds(one: ActuatedBlade, now: PageState) -> Markup:
         return tag("div.rx", press, data_explorer="kinds")
     heads = "kind", "range [°]", "mass [kg]", f"power [{now.units.power[0].symbol}]"
     rows = [tag("tr.rx-dim", [tag("th", head) for head in heads])]
-    for id in sorted(one.outcomes, key=list(actuators()).index):
-        rows += _kind(one, id, now.units)
+    folded = now.of(immovable_kinds).keys() - {one.question.actuator}
+    for id in actuators():
+        if id not in folded:
+            rows += _kind(one, id, now.units)
     mean = mission_words(one.question.mission)
     note = f"Power by schedule, {mean}, against the {against_words(one, one.inputs.against)}."
     return tag(

@@ -43,6 +43,7 @@ SCRIPTS = (
     ),
     *(
         "cards.js",
+        "verdict.js",
         "charts.js",
         "inset.js",
         "plan.js",

@@ -1,7 +1,7 @@
 // @ts-check
 // The cards on the stage: power, vibration, quantity on the disk.
 (() => {
-  const {text, write, staleMark, outdate, closest, paced, drag} = Common, {part} = RX, page = document.documentElement;
+  const {text, write, staleMark, outdate} = Common, {part} = RX;
 
   RX.paint('power', power => {
     const card = part('power'), {parts} = power;
@@ -35,58 +35,6 @@
       why.textContent = `${clauses.join('; ')}.`;
     }
   });
-  // What the actuator moves, costs and gives beside the line; where there is little room, in one sentence.
-  RX.paint(['assessed', 'line'], (one, line) => {
-    const card = part('verdict'), shown = Boolean(one) && !line?.problem;
-    card.hidden = !shown;
-    page.toggleAttribute('data-assessed', shown);
-    if (!one || !shown) return;
-    const {against, baselines, vibration} = one;
-    const column = (name, words, more, title = '') => `<div title="${text(title)}"><h2>${name}</h2>${words}
-      <p class="rxf-dim rxf-num">${more}</p></div>`;
-    const blades = baselines.map(([name, title]) => `<button data-do="against" data-value="${name}"
-      aria-pressed="${name === against}">${text(title)}</button>`).join('');
-    const masses = one.masses.map(([name, mass]) => `<i>${text(name)} ${text(mass)}</i>`).join(' · ');
-    const pays = one.pays.map((words, k) => k % 2 ? `<b><button data-pays class="rxf-num" data-explorer="pays-${k}"
-      title="Press or drag to try such an actuator">${text(words)}</button>${one.pays[k + 1][0]}</b>`
-      : text(k ? words.slice(1) : words)).join('');
-    // On a low telephone the line alone names the limits; their values are in the rail.
-    const listed = (name, list) => list.length ? `<b>${name}:</b>
-      ${list.map(words => `<span>${text(words)}</span>`).join(' ')}` : '';
-    const limits = one.over.length + one.required.length ? `<p class="rxf-over rxf-num" data-explorer="over">
-      <span data-over>${listed('Over its limits', one.over)}</span>
-      ${one.feasible && `<button data-do="feasible" title="Set an actuator of this kind within its limits">Make it
-        feasible: ${text(one.feasible)}</button>`}
-      <span class="rxf-dim">${listed('The best twist needs', one.required)}</span></p>` : '';
-    write(card, `<header data-explorer="assessed"><div role="group" aria-label="Compared with">
-        <span class="rxf-dim">vs.</span>${blades}</div></header>
-      ${limits}<div class="rxf-columns">
-        ${column('moves', `<b class="rxf-num" data-explorer="moves">${text(one.tip)}</b> at the tip, in flight`,
-          `${one.reach && `<span>reach ${text(one.reach)}</span>`}<span>${text(vibration)}</span>`,
-          `Twist that the actuator adds at the tip in flight, positive nose up; airloads reduce it by 1 to 10 %.
-          Vibration: mean and range over inflow models, blades bend.`)}
-        ${column('costs', `<b class="rxf-num" data-explorer="costs">${text(one.mass)}</b> on board`, masses,
-          'On all blades and in the cabin')}
-        ${column(`by schedule, over the <button data-mission title="Set its hours">mission</button>`,
-          `<b class="rxf-num">${text(one.flight || '…')}</b>`,
-          text(one.flights), 'The same for every setting here. ± is one standard deviation.')}
-      </div>
-      <p class="rxf-pays"><span data-explorer="said">${text(one.sentence)} </span>${text(one.problem)} ${pays}</p>`);
-  });
-  // A number that would make it pay puts the supposed actuator there; dragged, it goes on from there.
-  const suppose = paced(place => RX.send('suppose', place), 80);
-  drag(part('verdict'), '[data-pays]', (button, {clientX}) => {
-    const {range, kilograms} = RX.shown('assessed'), size = parseFloat(button.textContent);
-    const mass = button.textContent.includes('kg'), at = share => mass
-      ? [range, Math.max(size * share, .1)] : [Math.min(size * share, 20), kilograms];
-    RX.send('suppose', 'on');
-    suppose.send(at(1));
-    return {move: event => suppose.send(at(Math.exp((event.clientX - clientX) / 150)))};
-  });
-  part('verdict').addEventListener('keydown', event => {
-    if (closest(event, '[data-pays]') && ['Enter', ' '].includes(event.key)) RX.send('suppose', 'on');
-  });
-
   // Vibration of blades that bend, a row of its own below the power.
   RX.paint('vibration', vibration => {
     const row = part('vibration');

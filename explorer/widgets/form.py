@@ -1,4 +1,4 @@
-"""A form: the widgets of some quantities by their names, made, read, placed, hidden, disabled and translated alike.
+"""A form: the widgets of some quantities by their names, made, read, placed, hidden and translated alike.
 
 One of them is that of the test stand, whose widgets take the place of those of flight.
 """
@@ -244,12 +244,6 @@ class WidgetForm:
 
     def call(self, name: str, label: str) -> None:
         self._handles[name].label = label
-
-    def disable(self, disabled: bool) -> None:
-        """Take all widgets from the user, or give them back."""
-        for handle in self._handles.values():
-            if handle.disabled != disabled:
-                handle.disabled = disabled
 
 
 _NONE = "–"

@@ -178,6 +178,23 @@ def limits(
     return *own, *carried, *_torsion(installed)
 
 
+def why_immovable(installed: InstalledActuator) -> str:
+    """Why an actuator cannot move its blade, in a few words: `far too weak`; empty where it can.
+
+    Its principle cannot work on such a rotor, or its whole twist prints as 0.00°, or what it needs inside the blade has
+    no room at all (`Limit.far_above`). Other limits, exceeded or not, leave it a twist.
+    """
+    if installed.actuator.forbidden:
+        return installed.actuator.forbidden
+    if installed.too_weak:
+        return "far too weak"
+    whole = (1.0,) * len(installed.shapes)
+    own = installed.actuator.limits(installed, whole, ())
+    if any(limit.name == "space" and limit.far_above for limit in own):
+        return "no space in the blade"
+    return ""
+
+
 def _temperature(installed: InstalledActuator, top: float) -> Limit:
     data = structure_data()["limits"]
     if top <= 85.0:  # Manufacturer's storage limit; the operating limit is lower.

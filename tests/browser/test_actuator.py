@@ -1,6 +1,8 @@
 """The Actuator tab in a real browser: voltage twists the blades, another actuator gets another verdict."""
 
+import re
 from collections.abc import Iterator
+from itertools import pairwise
 
 import pytest
 from playwright.sync_api import expect
@@ -173,6 +175,79 @@ def test_the_three_states_move_bar_blade_rail_and_power_together_and_a_link_keep
     page.goto(page.url)  # As a colleague gets it.
     page.wait_for_function("() => RX.state.flight?.kind === 'ready'", timeout=VERDICT)
     assert seen("as set") == fast
+
+
+LABELS = """() => [...document.querySelectorAll('.rxv-scale > span')].map(label => {
+    const {left, right} = label.getBoundingClientRect();
+    return [left, right];
+})"""
+"""Ends of the labels of the scale of power [px], from left to right."""
+
+
+def test_the_card_is_a_row_a_scale_whose_labels_stand_apart_and_limits_behind_a_press(
+    watched: Watched,
+):
+    page = watched.page
+    said = r"(?s)^not buildable: \d limits.*moves 0\.00° of .*\d kW more over the mission"
+    watched.reads("assessed", said)
+    limits = page.locator("[data-explorer=over]")
+    opener = page.locator("[data-part=verdict] [data-unfold=limits]")
+    expect(limits).to_be_hidden()
+    opener.click()
+    expect(opener).to_have_attribute("aria-expanded", "true")
+    expect(limits).to_contain_text("Over its limits: fibre strain")
+    opener.press("Enter")
+    expect(limits).to_be_hidden()
+    unfold = page.locator("[data-unfold=verdict]")
+    if unfold.is_visible():
+        unfold.click()
+    watched.type("Voltage", 40)
+    names = "without it", "at rest", "as set", "by schedule", "best fixed blade"
+    scale = page.get_by_role("img", name="Power in this flight, kW:")
+    for name in names:
+        expect(scale).to_contain_text(name, timeout=VERDICT)
+    expect(scale.locator("span[data-flown]")).to_contain_text("as set")
+    flown = watched.text("total-power")
+    expect(scale).to_have_attribute("aria-label", re.compile(rf"as set {flown}\b"))
+    ends = watched.at_rest(lambda: page.evaluate(LABELS))
+    assert len(ends) == len(names)
+    for (_, before), (after, _) in pairwise(ends):
+        assert before <= after
+    card = watched.box("[data-part=verdict]")
+    assert card["x"] - 1 <= ends[0][0]
+    assert ends[-1][1] <= card["x"] + card["width"] + 1
+    if unfold.is_visible():
+        unfold.click()
+
+
+def test_kinds_that_cannot_move_the_blade_open_by_press_and_by_keys(watched: Watched):
+    page = watched.page
+    fold = page.locator("[data-explorer=weak-kinds]")
+    summary = fold.locator("summary")
+    weak = fold.get_by_role("button", name="PZT5A")
+    menu = page.get_by_role("combobox", name="Actuator")
+    expect(summary).to_have_text("4 kinds cannot move this blade")
+    expect(weak).to_be_hidden()
+    summary.click()
+    expect(weak).to_be_visible()
+    summary.press("Enter")
+    expect(weak).to_be_hidden()
+    summary.press("Space")
+    weak.press("Enter")
+    expect(menu).to_have_value(re.compile("PZT5A"))
+    expect(summary).to_have_text("3 kinds cannot move this blade")
+    watched.reads("assessed", r"(?s)^not buildable: far too weak.*moves 0\.00°")
+
+
+def test_a_rotor_that_carries_no_actuator_says_why_and_has_no_widgets(watched: Watched):
+    page = watched.page
+    page.locator(".rxf-rotor").select_option("bo105")
+    why = page.locator("[data-explorer=no-verdict]")
+    expect(why).to_contain_text("choose that rotor", timeout=VERDICT)
+    rail = page.locator("[data-dock-region=right]")
+    expect(rail.locator("input:visible")).to_have_count(0)
+    expect(rail.get_by_role("button", name="Reach and limits")).to_have_count(0)
+    expect(page.locator("[data-part=verdict]")).to_be_hidden()
 
 
 def test_hours_of_a_leg_are_set_on_the_flight_bar(watched: Watched):

@@ -24,6 +24,7 @@ from explorer.model.actuator_inputs import (
     verdict_tasks,
 )
 from explorer.model.inputs import Inputs, ViewState, inputs_of, with_rotor
+from explorer.model.stand import StandInputs
 from explorer.model.units import SI, UNITS
 from explorer.picture import lifted_blade as lifted
 from explorer.picture.blade_mesh import blade_shape
@@ -33,6 +34,7 @@ from explorer.sharing.share import within
 from explorer.text.readout import balance, limit_words
 from explorer.views import actuator_words
 from explorer.views.actuator import ACTUATOR, FormLook, pull
+from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.flight import BY_HAND
 from explorer.views.page_state import SetHand
 from explorer.workers import background
@@ -405,23 +407,50 @@ def test_the_rail_follows_design_voltage_and_verdict(verdict: Verdict):
     flown = told(ACTUATOR, told(ACTUATOR, now, lean_verdict=verdict), flight_of="no flight")
     assert [len(one.calls) for one in ACTUATOR.asks(flown)] == [1, 1, 0]
     paying = replace(flown, hand=replace(flown.hand, on_stage=True))
-    assert len(ACTUATOR.asks(paying)[2].calls) == len(ALL) - 1
+    weak = {"PZT5A", "PZT5H", "SMA_tube", "extension_twist"}
+    beside = {call.arguments[0].actuator for call in ACTUATOR.asks(paying)[2].calls}
+    assert beside == set(ALL) - weak - {"MFC_P1"}
     refused = ACTUATOR.view(told(ACTUATOR, now, lean_verdict="No such blade."))
     assert "No such blade." in refused["actuator.verdict"]
 
 
 def test_where_there_is_no_such_design_the_sentence_stands_alone():
-    """All else is as it was; another rotor has the widgets of the blade that carries actuators."""
+    """All else is as it was; a rotor that carries no actuator has no widgets of one either."""
     now = replace(actuate(INPUTS), problem="No trim at this speed.")
     assert sorted(ACTUATOR.view(now)) == ["actuator.form", "actuator.verdict"]
-    assert not ACTUATOR.view(now)["actuator.form"].inert
+    assert ACTUATOR.view(now)["actuator.form"].carried
     assert "No trim at this speed." in ACTUATOR.view(now)["actuator.verdict"]
-    other = actuate(with_rotor(INPUTS, "s61"))
-    shown = ACTUATOR.view(other)
-    assert sorted(shown) == ["actuator.form", "actuator.verdict"]
-    assert "S-61" in shown["actuator.verdict"]
-    assert shown["actuator.form"].inert  # None fits.
-    assert ACTUATOR.asks(other) == ()
+    free = replace(INPUTS, stand=StandInputs("free-rotor"))
+    turned = replace(actuate(INPUTS), inputs=free, sliders=free.design(), state=None)
+    other_rotor = actuate(with_rotor(INPUTS, "s61"))
+    for other, why in ((other_rotor, "choose that rotor."), (turned, "another trim.")):
+        shown = ACTUATOR.view(other)
+        assert why in shown.pop("actuator.verdict")
+        form: FormLook = shown.pop("actuator.form")
+        assert not form.carried
+        assert not any(form.seen.values())
+        assert set(shown.values()) == {""}
+        assert ACTUATOR.asks(other) == ()
+        assert ACTUATOR_CARD.view(other) == {"assessed": None}
+
+
+def test_kinds_that_cannot_move_the_blade_lie_behind_a_fold_and_a_chosen_one_stays():
+    now = actuate(INPUTS)
+    shown = ACTUATOR.view(now)
+    kinds = shown["actuator.form"].kinds
+    assert set(ALL) - set(kinds) == {"PZT5A", "PZT5H", "SMA_tube", "extension_twist"}
+    assert "<summary>4 kinds cannot move this blade</summary>" in shown["actuator.weak"]
+    folded = re.findall(r'data-value="(\w+)"[^>]*>[^<]*</button>: ([^<]*)', shown["actuator.weak"])
+    assert dict(folded) == {
+        "PZT5A": "far too weak",
+        "PZT5H": "far too weak",
+        "SMA_tube": "no space in the blade",
+        "extension_twist": "forbidden by constant rotor speed",
+    }
+    chosen = ACTUATOR.view(actuate(INPUTS, actuator=ActuatorInputs("PZT5A")))
+    assert "PZT5A" in chosen["actuator.form"].kinds
+    assert "3 kinds cannot" in chosen["actuator.weak"]
+    assert "PZT5A" not in chosen["actuator.weak"]
 
 
 @pytest.mark.parametrize(

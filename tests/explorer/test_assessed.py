@@ -120,15 +120,10 @@ def screen(now: PageState) -> dict[str, list[str]]:
     report = re.sub(r"<[^>]*>", " ", actuator_section(verdict, SI))
     (total,) = [bar.text for bar in flight["earns"].bars if bar.total]
 
-    found["mass"] = [
-        part.mass.removesuffix(" kg"),
-        f"{sum(float(mass) for _, mass in part.masses):.0f}",
-    ]
+    found["mass"] = [part.mass.removesuffix(" kg")]
     found["mass"].append(
         f"{sum(float(mass) for mass in re.findall(rf'({NUMBER}) kg of', words)):.0f}"
     )
-    read("mass", "# kg:", rail["actuator.numbers"])
-    read("mass", "^# kg on board", part.sentence)
     read("mass", "# kg:", report)
     staged = replace(now, hand=replace(now.hand, on_stage=True))
     kinds = re.sub(r"<[^>]*>", " ", PAY.view(staged)["actuator.kinds"].replace("</tr>", "\n"))
@@ -145,11 +140,16 @@ def screen(now: PageState) -> dict[str, list[str]]:
         found[share.part] = [share.value]
     found["tip"] = [part.tip, flight["flight"].tip]
     read("tip", "actuator-twist[^>]*>([^<]*)<", rail["actuator.now"])
-    read("tip", f"tip turned by ({NUMBER}°)", part.sentence)
     if now.hand.actuator.driven:
         read("tip", f"({NUMBER}°) at the tip", words)
     found["reach"] = [part.reach]
-    read("reach", rf"of ({NUMBER}…{NUMBER}°)\.", part.sentence)
+    assert part.end.removesuffix("°") in part.reach
+    assert part.scale is not None
+    for mark in part.scale.marks:
+        assert f"{mark.name} {mark.value}" in part.scale.sentence
+        for name in mark.name.split(", "):
+            found[f"power {name}"].append(mark.value)
+    found["power"] += [mark.value for mark in part.scale.marks if mark.flown]
     said = line_text(now)
     read("power", "needs # ±", said)
     read("power", r": # kW, [0-9.]+ % of the disk", flight["flight"].words)
@@ -157,8 +157,7 @@ def screen(now: PageState) -> dict[str, list[str]]:
     read("power here", "kW.*: # ± .*kW (?:more|less) than", said)
     read("power compared with", r"than [a-z ]+ \(#\)", said)
     found["power here"].append(balance_here(now)["total"].lstrip("+−"))
-    read("power over the flight", "(?:needs|saves) # ±", part.flight)
-    read("power over the flight", "By schedule it (?:needs|saves) # ±", part.sentence)
+    read("power over the flight", "^# ± .* (?:more|less)$", part.earns)
     read("power over the flight", ", it (?:needs|saves) # ±", report)
     found["power over the flight"].append(total.lstrip("+−"))
     read("power here", "(?:needs|saves) # ±", on_board(value, SI)[0])
@@ -200,6 +199,14 @@ def screen(now: PageState) -> dict[str, list[str]]:
 
 
 @cache
+def scheduled_drive(id: str, against: Against) -> float:
+    """In the flight of `DESIGN` [%]."""
+    verdict = judged(against, id)
+    swing = fly(verdict, [FlightLeg("here", 0.2)]).swings[0][0]
+    return float(round(100.0 * verdict.installed.actuator.share_of(swing)))
+
+
+@cache
 def judged(against: Against, id: str = "MFC_P1") -> Verdict:
     return try_actuator(id, DESIGN, against=against)
 
@@ -218,9 +225,17 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
     """The same quantities, by `rotor` alone."""
     verdict = judged(against, id)
     installed = verdict.installed
+    scale = {
+        "without it": DESIGN,
+        "at rest": with_actuator(DESIGN, f"{id},drive=0"),
+        "as set": with_actuator(DESIGN, f"{id},drive={drive}"),
+        "by schedule": with_actuator(DESIGN, f"{id},drive={scheduled_drive(id, against)}"),
+        "best fixed blade": replace(DESIGN, twist=verdict.baseline.fixed_twist),
+    }
+    if state == "stopped":
+        scale["stopped"] = scale["as set"]
     if state == "schedule":
-        swing = fly(verdict, [FlightLeg("here", 0.2)]).swings[0][0]
-        drive = float(round(100.0 * installed.actuator.share_of(swing)))
+        drive = scheduled_drive(id, against)
     flown = trimmed(with_actuator(DESIGN, f"{id},drive={drive}"))
     blade = (
         DESIGN if against == "same-blade" else replace(DESIGN, twist=verdict.baseline.fixed_twist)
@@ -255,6 +270,10 @@ def of_rotor(id: str, against: Against, state: ActuatorState, drive: float) -> d
         },
         "power": f"{1e-3 * flown.power.total:.0f}",
         "power compared with": f"{1e-3 * other.power.total:.0f}",
+        **{
+            f"power {name}": f"{1e-3 * trimmed(design).power.total:.0f}"
+            for name, design in scale.items()
+        },
         "power here": as_said(
             flown.power.total - other.power.total + (verdict.drive.hold_power if drive else 0.0),
             None if flown.design == other.design else doubt(flown, other).change_band,
@@ -328,7 +347,7 @@ def test_one_that_hardly_moves_says_so_once_and_has_no_number_beyond_its_limits(
     assert value.installed.too_weak
     assert volts.value > 1e4 * volts.bound
     assert (part.reach, part.pays) == ("", ())
-    assert "it moves 0.00°: far too weak." in part.sentence
+    assert (part.buildable, part.tip, part.end) == ("not buildable: far too weak", "0.00°", "")
     required = " ".join(part.required)
     assert f"voltage far above {volts.bound:.0f} V" in required
     assert "field far above " in required

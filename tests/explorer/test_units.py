@@ -177,13 +177,9 @@ def test_a_slider_with_other_ends_never_has_its_value_outside(
     assert all(least <= place <= most for least, place, most in seen)
 
 
-def test_widgets_are_hidden_by_name_and_disabled_together(form: WidgetForm):
+def test_widgets_are_hidden_by_name(form: WidgetForm):
     handles: dict[str, Any] = form._handles
     form.show({"altitude_m": False})
     assert not handles["altitude_m"].visible
     assert not form._below["altitude_m"].visible
     assert handles["preset"].visible
-    form.disable(True)
-    assert all(handle.disabled for handle in handles.values())
-    form.disable(False)
-    assert not any(handle.disabled for handle in handles.values())

@@ -17,7 +17,7 @@ from explorer.model.inputs import Inputs, with_rotor
 from explorer.model.units import SI
 from explorer.parts.presses import SupposePress
 from explorer.text.readout import change_sizes
-from explorer.views.actuated import actuated_blade
+from explorer.views.actuated import actuated_blade, immovable_kinds
 from explorer.views.actuator import ACTUATOR
 from explorer.views.assessed import ACTUATOR_CARD
 from explorer.views.flight import earns_state
@@ -26,7 +26,7 @@ from explorer.views.page_state import OpenPanels, PageState, SetAddress
 from explorer.views.pay import PAY, move_supposed, read_place, take_kind
 from explorer.workers.call import Call
 from rotor import doubt, make_design, solve
-from rotor.actuator import OtherStroke, Verdict, verdict_sentence, with_actuator
+from rotor.actuator import OtherStroke, Verdict, actuators, verdict_sentence, with_actuator
 from rotor.support.chart import DrawnPoints
 from rotor.trim.doubt import sureness
 from tests.actuate import actuate, done, told, worked
@@ -119,6 +119,12 @@ def asked_of(task: Call) -> VerdictInputs:
     return question
 
 
+def table_of(now: PageState) -> list[str]:
+    """The rows of the table of kinds as text."""
+    rows = re.findall(r"<tr[^>]*>(.*?)</tr>", PAY.view(now)["actuator.kinds"])
+    return [re.sub(r"<[^>]*>", " ", row) for row in rows]
+
+
 def test_the_table_of_kinds_has_the_verdict_of_each_as_it_comes(judged: PageState):
     """Same blade and mission; the words of sureness and the limits beside the number; a press takes one."""
     tried = replace(judged.hand.actuator, plies=4, chord=(0.2, 0.8))
@@ -132,13 +138,25 @@ def test_the_table_of_kinds_has_the_verdict_of_each_as_it_comes(judged: PageStat
         *[2] * (len(tasks) - 1),
     ]
     passive = tasks["extension_twist"].run()
+    strips = tasks["PZT5H_strips"].run()
+    now = replace(now, answers={tasks["PZT5H_strips"]: strips})
+    words = table_of(now)
+    kinds = [id for id in tasks if id not in immovable_kinds(now)]
+    assert len(words) == 1 + 2 * len(kinds)  # Below the heading two rows for each kind.
+    size, band = change_sizes(strips.net_saving, strips.net_band, SI)
+    row = 1 + 2 * sorted(kinds, key=list(actuators()).index).index("PZT5H_strips")
+    assert f"+{size}{band}" in words[row]
+    assert words[row + 1].strip().startswith("over its limits in fibre strain and mass; ")
+    # One that cannot move the blade stands in the table once it is chosen.
+    now = done(now, take_kind(now, "extension_twist"))
+    tasks = actuated_blade(now).tasks
+    passive = tasks["extension_twist"].run()
     now = replace(now, answers={tasks["extension_twist"]: passive})
     rows = re.findall(r"<tr[^>]*>(.*?)</tr>", PAY.view(now)["actuator.kinds"])
-    words = [re.sub(r"<[^>]*>", " ", row) for row in rows]
-    assert len(rows) == 1 + 2 * len(tasks)
+    words = table_of(now)
     size, band = change_sizes(passive.net_saving, passive.net_band, SI)
     assert passive.net_saving > passive.net_band  # Less power, and never green.
-    row = 1 + 2 * [*tasks].index("extension_twist")  # Below the heading two rows for each kind.
+    row = len(words) - 2
     assert (f"−{size}{band}" in words[row], "gain" in rows[row]) == (True, False)
     assert words[row + 1].strip() == "forbidden by constant rotor speed; likely"
     taken = done(now, take_kind(now, "AFC")).hand.actuator
@@ -161,8 +179,9 @@ def test_a_kind_that_constant_speed_forbids_says_so_first_and_is_never_green():
     still = worked(LINE, actuate(INPUTS, actuator=ActuatorInputs("extension_twist")))
     assert line_text(still).endswith("kW: no change from the blade without it.")
     card = ACTUATOR_CARD.view(now)["assessed"]
-    assert card.flight == "forbidden by constant rotor speed"
-    assert card.flights.startswith("if it could work: saves")
+    assert card.buildable == "not buildable: forbidden by constant rotor speed"
+    assert card.earns.endswith(" kW less")
+    assert card.sure.endswith(", if it could work")
     assert "gain" not in {bar.kind for bar in earns_state(verdict, True, SI).bars if bar.total}
     assert earns_state(verdict, True, SI).fuel_kind == ""
     assert actuated_blade(now).over_flight.kind == ""
@@ -189,7 +208,8 @@ def test_at_the_chosen_actuator_it_says_what_the_card_says(lined: PageState):
     assert value.over_flight is not None
     assert shown.at == (round(math.degrees(value.range), 2), float(f"{value.mass:.3g}"))
     words = re.search(r"needs .* more \([^)]+\)", shown.words)
-    assert words[0] == ACTUATOR_CARD.view(now)["assessed"].flight
+    card = ACTUATOR_CARD.view(now)["assessed"]
+    assert words[0] == f"needs {card.earns} ({card.sure})"
     other = actuate(with_rotor(INPUTS, "s61"), on_stage=True)
     assert PAY.view(other)["suppose"] is None
     assert PAY.view(replace(other, problem="No trim.")) == {}

@@ -641,8 +641,7 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
         "Verdict.net_saving",
         _of_verdict(lambda verdict: abs(verdict.net_saving) / _KILO),
         (
-            Place("card", _CARD, _frame("(?:saves|needs) #", "assessed", "flight")),
-            Place("card, sentence", _CARD, _frame("(?:saves|needs) #", "assessed", "sentence")),
+            Place("card", _CARD, _frame("# ±", "assessed", "earns")),
             Place("balance", "explorer.text.readout.balance", _balance_total),
             Place("report", _SECTION, _section(" it (?:saves|needs) #")),
             Place("actuator --json", _VERDICT_RECORD, _unsigned(_verdict_record("net_saving_w", size=_KILO))),
@@ -656,8 +655,7 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
         "Verdict.net_band",
         _of_verdict(lambda verdict: (verdict.net_band or 0.0) / _KILO),
         (
-            Place("card", _CARD, _frame(f"(?:saves|needs) {NUMBER} ± #", "assessed", "flight")),
-            Place("card, sentence", _CARD, _frame(f"(?:saves|needs) {NUMBER} ± #", "assessed", "sentence")),
+            Place("card", _CARD, _frame(f"{NUMBER} ± #", "assessed", "earns")),
             Place("report", _SECTION, _section(f" it (?:saves|needs) {NUMBER} ± #")),
             Place("actuator --json", _VERDICT_RECORD, _verdict_record("net_saving_band_w", size=_KILO)),
             Place("actuator", _ACTUATOR, _judged(rf"(?m)^  net +(?:saves|costs) {NUMBER} ± #")),
@@ -671,8 +669,6 @@ QUANTITIES: tuple[ShownQuantity, ...] = (
         _of_verdict(lambda verdict: verdict.installed.masses.aircraft),
         (
             Place("card", _CARD, _frame("# kg", "assessed", "mass")),
-            Place("card, sentence", _CARD, _frame("^# kg on board", "assessed", "sentence")),
-            Place("rail", _RAIL, _text("actuator.numbers", "# kg:")),
             Place("report", _SECTION, _section("; # kg")),
             Place("actuator --json", _VERDICT_RECORD, _verdict_record("added_mass_kg")),
             Place("actuator", _ACTUATOR, _judged("added mass +# kg")),

@@ -33,17 +33,25 @@ class ActuatorControls:
         self._moved, self._driven = moved, driven
         self._placing = threading.RLock()
         """Held while widgets are read or moved together: nobody reads half of a change, which undo would take apart."""
+        self._folders: list[viser.GuiFolderHandle] = []
         texts: dict[str, viser.GuiHtmlHandle] = {}
 
         def text(name: str) -> None:
             texts[name] = gui.add_html("")
 
+        def folder(title: str) -> viser.GuiFolderHandle:
+            self._folders.append(gui.add_folder(title, expand_by_default=False))
+            return self._folders[-1]
+
         start = ActuatorInputs()
         self._against: Against = against
         self._hours = hours
+        self._offered = tuple(actuator_titles())
+        """Kinds in the menu."""
         form = self.form = WidgetForm(gui, self._heard)
         text("verdict")
         form.menu("actuator", "Actuator", actuator_titles())
+        text("weak")
         text("kinds")
         form.slider("plies", Slider("Plies per side", 1, 8, 1), start.plies)
         form.span("span", "Span [R]", (0.14, 1.0), start.span, 0.05)
@@ -51,20 +59,20 @@ class ActuatorControls:
             form.slider(name, Slider("Voltage [%]", -100.0, 100.0, 1.0), 0.0, entry="voltage")
         text("bar")
         text("now")
-        with gui.add_folder("Twist at n/rev", expand_by_default=False):
+        with folder("Twist at n/rev"):
             gui.add_html(tag("div.rxd", data_dial=True, data_explorer="dial"))
             text("per_rev")
             gui.add_html(
                 tag("div.rx.rx-dim.rx-small", validation_words(), data_explorer="unmeasured")
             )
-        with gui.add_folder("Placement and blade", expand_by_default=False):
+        with folder("Placement and blade"):
             form.span("chord", "Chord [c]", (0.0, 0.95), start.chord, 0.05, "chord_range")
             form.menu("blade", "Blade type", BLADES, entry="blade_type")
             form.slider("stiffness", Slider("New blade GJ ×", 0.2, 1.5, 0.05), start.stiffness)
             form.box("crossed", "Fibres at −45°", start.crossed)
             titles = {name: find_concept(name).title for name in CONCEPTS}
             form.menu("concept", "Concept", titles, entry="actuator_concept")
-        with gui.add_folder("Reach and limits", expand_by_default=False):
+        with folder("Reach and limits"):
             text("numbers")
             text("limits")
         shows = {
@@ -84,6 +92,8 @@ class ActuatorControls:
     def place(self, changes: Mapping[str, Any]) -> None:
         """Move widgets: these fields of `ActuatorInputs`."""
         with self._placing:
+            if changes.get("actuator", self._offered[0]) not in self._offered:
+                self._offer((*self._offered, changes["actuator"]))
             if {"actuator", "drives"} & changes.keys():
                 least = ActuatorInputs(changes.get("actuator", self.form["actuator"])).least_drive
                 for each in DRIVES:
@@ -104,7 +114,18 @@ class ActuatorControls:
         self.form.show(look.seen)
         for name, label in look.labels.items():
             self.form.call(name, label)
-        self.form.disable(look.inert)
+        for folder in self._folders:
+            folder.visible = look.carried
+        with self._placing:
+            if look.kinds and look.kinds != self._offered and self.form["actuator"] in look.kinds:
+                self._offer(look.kinds)
+
+    def _offer(self, kinds: tuple[str, ...]) -> None:
+        """Offer these kinds in the menu; the chosen one is among them."""
+        titles = actuator_titles()
+        chosen = self.form["actuator"]
+        self._offered = kinds
+        self.form.offer("actuator", {id: titles[id] for id in kinds}, chosen)
 
     def _heard(self, name: str, by_hand: bool) -> None:
         if by_hand and name in DRIVES:
