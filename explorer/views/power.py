@@ -67,7 +67,10 @@ def _numbers(state: SessionState, units: Units, band: Doubt | None) -> PowerPart
 
 
 def status(state: SessionState, units: Units) -> LineStatus:
-    """The end of the line: trimmed, or engines, separated area, number of caveats; the title: how well validated."""
+    """The end of the line: engines, separated area or number of caveats, empty where there is nothing to say.
+
+    Its title says how well the answer is validated.
+    """
     reasons = cautions(state.solution, state.pinned, units)
     stalled, installed = state.solution.stalled_area, state.solution.design.aircraft.installed_power
     record = validated(state.solution)
@@ -91,7 +94,7 @@ def status(state: SessionState, units: Units) -> LineStatus:
         words = "1 note" if len(reasons) == 1 else f"{len(reasons)} notes"
     else:
         title = f"{state.solution.message} {measured} Click to see how far to trust it."
-        return LineStatus("converged", "trimmed", title)
+        return LineStatus("converged", "", title)
     return LineStatus("care", words, title)
 
 

@@ -36,6 +36,9 @@
       aria-expanded="${opened?.name === menu.name}" title="${text(menu.label)}: press to choose"`;
   }
 
+  // The band of the power leads to how far to trust it.
+  const TRUST = 'role="button" tabindex="0" data-do="drawer" data-value="trust"';
+
   RX.paint('line', line => {
     const {pieces, status, problem} = line, focused = closest({target: document.activeElement}, '[data-handle]');
     controls.clear();
@@ -43,10 +46,10 @@
     const words = pieces.map(({text: said, part: name, kind, stale, title, control, menu}) => {
       if (control) controls.set(control.name, control);
       if (menu) menus.set(menu.name, menu);
-      const opens = control ? sliderMarks(control) : menu ? menuMarks(menu) : '';
+      const opens = control ? sliderMarks(control) : menu ? menuMarks(menu) : name === 'within' ? TRUST : '';
       const answers = NAMES.includes(name) ? '' : 'data-answers';
       const marks = name && `data-explorer="${name}" class="${kind && `rxf-${kind}`}" ${answers}${staleMark(stale)}
-        ${title && `title="${text(title)}"`}`;
+        ${title && `title="${text(name === 'within' ? `${title} ${status.title}` : title)}"`}`;
       return opens || marks ? `<span ${marks} ${opens}>${text(said)}</span>` : text(said);
     }).join('');
     write(place, `${words}${problem
@@ -130,6 +133,11 @@
     if (name && event.detail === 0) toggle(name);
   });
   place.addEventListener('keydown', event => {
+    const trusted = closest(event, 'span[data-value=trust]');
+    if (trusted && ['Enter', ' '].includes(event.key)) {
+      event.preventDefault();
+      trusted.click();
+    }
     const {handle: name} = closest(event, '[data-handle]')?.dataset ?? {}, control = controls.get(name);
     if (!name || event.ctrlKey || event.metaKey || event.altKey) return;
     const opens = ['Enter', ' ', ...(control ? [] : ['ArrowDown'])].includes(event.key);

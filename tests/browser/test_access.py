@@ -172,7 +172,7 @@ def test_a_finger_drags_slider_curve_and_blade_on_a_phone(browser: Browser, app:
     def outer() -> float:
         return float(slider.get_attribute("aria-valuenow") or "nan")
 
-    for part in ("total-power", "status"):
+    for part in ("total-power", "within"):
         box = watched.box(page.locator(f'[data-explorer="{part}"]').first)
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= 390

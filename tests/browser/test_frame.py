@@ -43,7 +43,7 @@ def test_each_drawer_opens_beside_the_scene_and_escape_closes_it(watched: Watche
         )
     # The status opens trust, and the parts of power open the numbers.
     for press, name, part in (
-        (".rxf-chip", "trust", "provenance"),
+        ("[data-explorer=within]", "trust", "provenance"),
         (".rxf-parts", "details", "trim"),
     ):
         page.locator(press).click()
