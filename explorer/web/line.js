@@ -39,12 +39,12 @@
   // The band of the power leads to how far to trust it.
   const TRUST = 'role="button" tabindex="0" data-do="drawer" data-value="trust"';
 
-  RX.paint('line', line => {
+  function draw(line) {
     const {pieces, status, problem} = line, focused = closest({target: document.activeElement}, '[data-handle]');
     controls.clear();
     menus.clear();
     const words = pieces.map(({text: said, part: name, kind, stale, title, control, menu}) => {
-      if (control) controls.set(control.name, control);
+      if (control) controls.set(control.name, {...control});  // It moves before the answer comes.
       if (menu) menus.set(menu.name, menu);
       const opens = control ? sliderMarks(control) : menu ? menuMarks(menu) : name === 'within' ? TRUST : '';
       const answers = NAMES.includes(name) ? '' : 'data-answers';
@@ -65,14 +65,19 @@
     follow();
     clearTimeout(told);
     told = setTimeout(() => RX.say(spoken()), problem ? 0 : LATER);  // Once no answer follows.
-  });
+  }
+  RX.paint('line', draw);
 
   // What is not yet of these inputs is said with its mark.
   const spoken = () => [...place.childNodes].map(node => node instanceof Element && node.hasAttribute('data-stale')
     ? `${node.textContent} (${node.getAttribute('aria-description')})` : node.textContent).join('');
 
   // From the change of an input to its answer, the page as a whole has the mark; without a trim it keeps it.
-  RX.paint(['line', 'stale'], ({problem}, stale) => outdate(document.documentElement, stale || problem));
+  RX.paint(['line', 'stale'], (line, stale) => {
+    outdate(document.documentElement, stale || line.problem);
+    // What was moved and taken back before an answer has no other line.
+    if (!stale && place.written === '') draw(line);
+  });
 
   // It moves at once; what is said of the design before is grey until the answer comes.
   const sliding = paced((/** @type {[string, number]} */ to) => RX.send('slide', to));

@@ -66,6 +66,11 @@ def test_nothing_is_hard_to_reach(browser: Browser, app: App, scheme: Literal["l
         watched.unfold(name)
         page.get_by_role(role, name=name, exact=True).first.wait_for()
         assert violations(watched) == [], mode
+    for name in ("mass_t", "law"):
+        page.locator(f"[data-handle={name}]").press("Enter")
+        page.locator(".rxf-values").wait_for()
+        assert violations(watched) == [], name
+        page.keyboard.press("Escape")
     disk()
     for drawer in ("open", "share", "details", "probe", "trust", "lecture", "settings"):
         watched.drawer(drawer)

@@ -266,6 +266,18 @@ def test_the_link_keeps_what_is_compared_with(visit: Visit, app: App):
     other.until(lambda: other.text("line") == compared)
 
 
+def test_the_mission_of_the_verdict_leads_to_its_hours(visit: Visit):
+    watched = visit(size=LARGE)
+    page = watched.page
+    watched.mode("actuate")
+    watched.reads("assessed", "same blade without it")
+    page.get_by_role("button", name="mission", exact=True).click()
+    assert page.evaluate("() => document.activeElement.dataset.hours") == "0"
+    page.keyboard.type("2")
+    page.keyboard.press("Tab")
+    watched.until(lambda: "&h=2,0.25,1,0.25" in page.url)
+
+
 @pytest.mark.parametrize("mode", ["explore", "actuate"])
 def test_what_opens_is_wholly_in_the_window_and_finger_high_on_a_telephone(visit: Visit, mode: str):
     watched = visit(size=MEDIUM)
