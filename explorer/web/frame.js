@@ -361,10 +361,11 @@
     if (told) placed.push({...onStage(told), top: 0, bottom: usual});
     return placed;
   }
-  // How high the card of power usually reaches [px]: the verdict, in columns or as a sentence, hides the vibration.
+  // How high the card of power usually reaches [px]: the row of the actuator, in one to three lines, and its scale.
   function usualPower({width, height}) {
-    if (page.hasAttribute('data-flight') && (height <= 700 || width <= 860)) return width > 640 ? 42 : 78;
-    if (page.hasAttribute('data-flight')) return width > 900 && height > 760 ? 190 : 110;
+    if (page.hasAttribute('data-flight') && height > 760 && width > 900) return 172;
+    if (page.hasAttribute('data-flight') && width > 960) return 42;
+    if (page.hasAttribute('data-flight')) return width > 640 ? 58 : 78;
     if (small.matches) return state.vibration ? 70 : 40;
     const why = width > 860 || height > 560 ? 54 : 0;
     return (state.vibration ? 98 : 66) + why;
