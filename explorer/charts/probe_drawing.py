@@ -23,8 +23,6 @@ WIDTH, HEIGHT = 312.0, 166.0
 LIFT, DRAG, ALPHA = THIS, NOW, "#099268"
 LIFT_INK, ALPHA_INK = "var(--rx-accent)", "var(--rx-good)"
 """Of words, which need more contrast than lines."""
-OPENED = 3
-"""How many times wider small angles are drawn on request."""
 _QUARTER: Point = (126.0, 82.0)
 """Where the quarter chord is drawn."""
 _CHORD = 100.0
@@ -34,8 +32,6 @@ _DRAG_FACTORS = (10, 5, 2)
 """Drag is a fiftieth of the lift: on its scale it would not be seen."""
 _SMALL = math.radians(40.0)
 """Angles up to here are marked behind the trailing edge, where they have room; larger ones round the section."""
-_WIDEST = math.radians(31.0)
-"""Widest angle that is drawn [rad]."""
 _RAY, _COLUMN = 134.0, 266.0
 """Where the rays of small angles end, and where their words begin."""
 _FAINT, _BOLD = 0.6, 600
@@ -49,7 +45,6 @@ class DrawingScales:
     velocity: int
     lift: int
     drag: int
-    angles: int
 
 
 @dataclass(frozen=True)
@@ -98,17 +93,15 @@ def _in_a_sum(angle: float) -> str:
 
 @dataclass(frozen=True)
 class _Sketch:
-    """A probe with the angles as they are drawn."""
+    """A probe with its angles as they are printed."""
 
     probe: Probe
     printed: PrintedAngles
-    theta: float
-    phi: float
-    alpha: float
 
     @property
     def small(self) -> bool:
-        return max(abs(self.theta), abs(self.phi), abs(self.alpha)) < _SMALL
+        here = self.probe
+        return max(abs(here.theta), abs(here.phi), abs(here.alpha)) < _SMALL
 
     @property
     def behind(self) -> bool:
@@ -116,24 +109,18 @@ class _Sketch:
         return self.probe.u_t < 0.0
 
 
-def drawing(
-    probe: Probe, fastest: float, strongest: float, opened: bool = False
-) -> tuple[Markup, DrawingScales]:
+def drawing(probe: Probe, fastest: float, strongest: float) -> tuple[Markup, DrawingScales]:
     """The SVG, and its scales.
 
-    `fastest` [m/s], `strongest` [N/m]: the greatest velocity and load on this disk. `opened`: small angles are drawn
-    wider, so that the triangle is seen.
+    `fastest` [m/s], `strongest` [N/m]: the greatest velocity and load on this disk.
     """
     lift, drag = (_STRONGEST * abs(load) / strongest for load in (probe.lift, probe.drag))
-    widest = max(abs(probe.theta), abs(probe.phi))
     scales = DrawingScales(
         velocity=_factor(_FASTEST * probe.u / fastest, 24.0, (1, 2, 5, 10, 20)),
         lift=_factor(lift, 10.0, (1, 2, 5, 10, 20)) if probe.u_t < 0.0 else 1,
         drag=next((factor for factor in _DRAG_FACTORS if factor * drag < 0.8 * _STRONGEST), 1),
-        angles=next((k for k in range(OPENED, 1, -1) if opened and k * widest < _WIDEST), 1),
     )
-    k = scales.angles
-    sketch = _Sketch(probe, printed_angles(probe), k * probe.theta, k * probe.phi, k * probe.alpha)
+    sketch = _Sketch(probe, printed_angles(probe))
     parts = (
         _ground(sketch),
         _section(sketch),
@@ -167,7 +154,7 @@ def _turned(points: Array, angle: float) -> Array:
 
 
 def _section(sketch: _Sketch) -> Markup:
-    shape = _turned(outline(sketch.probe.section), sketch.theta)
+    shape = _turned(outline(sketch.probe.section), sketch.probe.theta)
     look: dict[str, Attribute] = {
         "fill": "rgba(128,128,128,.22)",
         "stroke": "currentColor",
@@ -181,7 +168,10 @@ def _ground(sketch: _Sketch) -> Markup:
     y = _QUARTER[1]
     plane = svg.line((4.0, y), (_QUARTER[0] + _RAY, y), width=0.9, dashes="5 4", opacity=0.55)
     chord = svg.line(
-        _ray(sketch.theta, -0.27 * _CHORD), _ray(sketch.theta, _RAY), width=0.8, opacity=_FAINT
+        _ray(sketch.probe.theta, -0.27 * _CHORD),
+        _ray(sketch.probe.theta, _RAY),
+        width=0.8,
+        opacity=_FAINT,
     )
     return plane + chord
 
@@ -189,11 +179,11 @@ def _ground(sketch: _Sketch) -> Markup:
 def _triangle(sketch: _Sketch, scale: float) -> Markup:
     """U_T, then U_P, and their resultant, which ends just short of the edge that it meets."""
     edge = -0.83 if sketch.behind else 0.32
-    x, y = _turned(np.array([[edge, 0.0]]), sketch.theta)[0].tolist()
+    x, y = _turned(np.array([[edge, 0.0]]), sketch.probe.theta)[0].tolist()
     reach = scale * sketch.probe.u
-    start = x - reach * math.cos(sketch.phi), y - reach * math.sin(sketch.phi)
+    start = x - reach * math.cos(sketch.probe.phi), y - reach * math.sin(sketch.probe.phi)
     corner, middle = (x, start[1]), 0.5 * (start[0] + x)
-    above = sketch.phi >= 0.0
+    above = sketch.probe.phi >= 0.0
     over, under = (start[1] - 6.0, y + 15.0) if above else (start[1] + 13.0, y - 8.0)
     beside, anchor = (x - 3.0, "end") if sketch.behind else (x + 3.0, "start")
     return group(
@@ -210,17 +200,20 @@ def _angles(sketch: _Sketch) -> Markup:
     """θ from the disk plane to the chord, φ to the wind, α from the wind to the chord, which the pitch rate turns."""
     probe, printed, small = sketch.probe, sketch.printed, sketch.small
     wind = svg.line(
-        _ray(sketch.phi, 10.0), _ray(sketch.phi, _RAY if small else 76.0), width=0.8, opacity=_FAINT
+        _ray(sketch.probe.phi, 10.0),
+        _ray(sketch.probe.phi, _RAY if small else 76.0),
+        width=0.8,
+        opacity=_FAINT,
     )
     theta, phi, alpha = (124.0, 98.0, 111.0) if small else (56.0, 32.0, 64.0)
     arcs = (
-        svg.arc(_QUARTER, theta, 0.0, sketch.theta)
-        + svg.arc(_QUARTER, phi, 0.0, sketch.phi)
-        + svg.arc(_QUARTER, alpha, sketch.phi, sketch.alpha, ALPHA, 1.8)
+        svg.arc(_QUARTER, theta, 0.0, sketch.probe.theta)
+        + svg.arc(_QUARTER, phi, 0.0, sketch.probe.phi)
+        + svg.arc(_QUARTER, alpha, sketch.probe.phi, sketch.probe.alpha, ALPHA, 1.8)
     )
     if small and probe.pitch_rate is not None:
         # The chord as the flow meets it, from which α is counted.
-        met = sketch.phi + sketch.alpha
+        met = sketch.probe.phi + sketch.probe.alpha
         arcs += svg.line(_ray(met, 72.0), _ray(met, _RAY), ALPHA, width=0.8, dashes="2 2")
     places = _in_column(sketch) if small else _around(sketch)
     anchors = (
@@ -245,11 +238,16 @@ def _in_column(sketch: _Sketch) -> list[Point]:
     """Places of the words θ, φ, α and "disk plane" one beneath the other, each near what it names."""
     heights = [
         _ray(angle, _RAY)[1]
-        for angle in (sketch.theta, 0.5 * sketch.phi, sketch.phi + 0.5 * sketch.alpha, 0.0)
+        for angle in (
+            sketch.probe.theta,
+            0.5 * sketch.probe.phi,
+            sketch.probe.phi + 0.5 * sketch.probe.alpha,
+            0.0,
+        )
     ]
     # The pitch spans both others: its word goes beyond the chord line, that of the plane to the other side.
-    heights[0] += math.copysign(9.0, sketch.theta)
-    heights[3] -= math.copysign(9.0, sketch.theta)
+    heights[0] += math.copysign(9.0, sketch.probe.theta)
+    heights[3] -= math.copysign(9.0, sketch.probe.theta)
     edges = (_COLUMN, _COLUMN, _COLUMN, WIDTH - 1.0)
     return [
         (x, height + 3.5)
@@ -260,7 +258,10 @@ def _in_column(sketch: _Sketch) -> list[Point]:
 def _around(sketch: _Sketch) -> list[Point]:
     """Places of the same words about the section, where angles are large."""
     x, y = _QUARTER
-    inner, outer = _ray(0.5 * sketch.phi, 42.0), _ray(sketch.phi + 0.5 * sketch.alpha, 75.0)
+    inner, outer = (
+        _ray(0.5 * sketch.probe.phi, 42.0),
+        _ray(sketch.probe.phi + 0.5 * sketch.probe.alpha, 75.0),
+    )
     return [
         (x + 46.0, y - 6.0),
         (inner[0], inner[1] + 3.5),
@@ -272,12 +273,12 @@ def _around(sketch: _Sketch) -> list[Point]:
 def _forces(sketch: _Sketch, lift_scale: float, drag_scale: float) -> Markup:
     """Lift across the wind, drag along it, both from the quarter chord."""
     lift, drag = lift_scale * sketch.probe.lift, drag_scale * sketch.probe.drag
-    cos, sin = math.cos(sketch.phi), math.sin(sketch.phi)
+    cos, sin = math.cos(sketch.probe.phi), math.sin(sketch.probe.phi)
     x, y = _QUARTER
     tip = x + lift * sin, y - lift * cos
     text, place = "", (tip[0] + 7.0, tip[1] + 8.0 if tip[1] < y else max(tip[1] + 2.0, y + 19.0))
     if sketch.behind:  # All the angles are on one side: there is room on the other.
-        text, place = "lift ", (x - 14.0, y - 40.0 if sketch.phi > 0.0 else y + 48.0)
+        text, place = "lift ", (x - 14.0, y - 40.0 if sketch.probe.phi > 0.0 else y + 48.0)
     return group(
         svg.arrow(_QUARTER, (x + drag * cos, y + drag * sin), DRAG, 2.6),
         svg.arrow(_QUARTER, tip, LIFT, 3.2),
@@ -302,17 +303,15 @@ _CHIPS = {
 }
 
 
-def probe_panel(
-    probe: Probe, solution: Solution, opened: bool = False, measured: Content = None
-) -> Markup:
-    """Everything about one blade element, one beneath the other; `opened`: its small angles drawn wider.
+def probe_panel(probe: Probe, solution: Solution, measured: Content = None) -> Markup:
+    """Everything about one blade element, one beneath the other.
 
     `measured`: airloads over the azimuth, as `measured_panel` draws them.
     """
     disk, design = solution.disk, solution.design
     fastest = design.rotor.tip_speed * float(np.hypot(disk.u_t, disk.u_p).max())
     strongest = design.thrust_per_metre * float(np.hypot(disk.dct, disk.dcq).max())
-    picture, scales = drawing(probe, fastest, strongest, opened)
+    picture, scales = drawing(probe, fastest, strongest)
     return tag(
         "div.rx.rx-probe",
         _head(probe),
@@ -365,8 +364,8 @@ def _key(scales: DrawingScales) -> Markup:
     keys = [
         tag("span", dash(colour), f"{name}{_times(factor)}") for name, colour, factor in entries
     ]
-    view = f"angles{_times(scales.angles)}" if scales.angles > 1 else "seen from the hub"
-    return tag("div.rx-line.rx-small.rx-dim.rx-base", keys, tag("span.rx-push", view))
+    view = tag("span.rx-push", "seen from the hub")
+    return tag("div.rx-line.rx-small.rx-dim.rx-base", keys, view)
 
 
 def _times(factor: int) -> str:

@@ -216,8 +216,8 @@ _STEPS = {
 class _ProbePoint:
     r: float
     psi_deg: float
-    shown: bool
-    opened: bool
+    marked: bool
+    """Whether the disk is in the scene, to mark the place on it."""
 
 
 class ProbePanel:
@@ -250,12 +250,9 @@ class ProbePanel:
         self._follow = gui.add_checkbox(
             "Follow the reference blade", True, hint=hint("probe_follow")
         )
-        self._shown = gui.add_checkbox("Show on the disk", False, hint=hint("probe_shown"))
-        self._opened = gui.add_checkbox("Enlarge angles", False, hint=hint("probe_opened"))
         by_hand(self._psi, self._psi_moved)
         by_hand(self._r, lambda _: self._moved())
-        for box in (self._follow, self._shown, self._opened):
-            by_hand(box, lambda _: context.wake())
+        by_hand(self._follow, lambda _: context.wake())
         client.scene.on_click()(self._clicked)
         self.ride = RideAlong(context, scene, lambda: self._player.playing)
         self.ride.ended.append(self._play_on)
@@ -266,7 +263,6 @@ class ProbePanel:
         context.bridge.on("play", lambda _: self.toggle())
         bind = context.keyboard.bind
         bind("play", self.toggle)
-        bind("probe_hide", self._hide)
         for name, (r, psi) in _STEPS.items():
             bind(f"probe_{name}", partial(self._step, r, psi))
             bind(f"probe_far_{name}", partial(self._step, COARSE * r, COARSE * psi))
@@ -291,7 +287,7 @@ class ProbePanel:
             _R_STEP * math.ceil(solution.design.rotor.blade.root_cutout / _R_STEP - 1e-9), 2
         )
         place = self._place()
-        if not place.shown and self._context.layout.drawer != "probe":
+        if self._context.layout.drawer != "probe":
             if self._drawn is not None:
                 self._drawn = None
                 self._cursor.hide()
@@ -306,10 +302,10 @@ class ProbePanel:
         if self._drawn == (solution, place, pitch):
             return
         self._drawn = solution, place, pitch
-        self._html = probe_panel(here, solution, place.opened, self._measured(solution, here))
+        self._html = probe_panel(here, solution, self._measured(solution, here))
         self._panel.content = answers(self._html)
         with self._context.client.atomic():
-            if place.shown:
+            if place.marked:
                 bent = drawn_bending(solution, [here.r], math.radians(state.view.azimuth_deg))
                 self._cursor.show(solution.design.rotor, here, pitch, bent)
             else:
@@ -333,7 +329,6 @@ class ProbePanel:
     def point(self, at: SectionPress) -> None:
         """A place on the disk was clicked: the drawer shows the section there."""
         self._set(at.r, float(round(at.psi) % 360))
-        self._context.layout.open_drawer("probe")
 
     def toggle(self) -> None:
         if self._player.playing or self._context.state() is None:
@@ -359,8 +354,8 @@ class ProbePanel:
         self._context.wake()
 
     def _chosen(self) -> SectionPress | None:
-        """The section that the drawer or the disk shows."""
-        if not self._shown.value and self._context.layout.drawer != "probe":
+        """The section that the drawer shows."""
+        if self._context.layout.drawer != "probe":
             return None
         return SectionPress(self._r.value, self._psi.value)
 
@@ -394,9 +389,7 @@ class ProbePanel:
             self._context.display.turn(self._walked)
 
     def _place(self) -> _ProbePoint:
-        return _ProbePoint(
-            self._r.value, self._psi.value, self._shown.value and self.seen, self._opened.value
-        )
+        return _ProbePoint(self._r.value, self._psi.value, self.seen)
 
     def _set(self, r: float, psi_deg: float | None = None) -> None:
         """Move the probe, and with it the reference blade where they are tied; without ψ only along the blade."""
@@ -415,15 +408,11 @@ class ProbePanel:
         self._moved()
 
     def _moved(self) -> None:
-        self._shown.value = True
+        self._context.layout.open_drawer("probe")
         self._context.wake()
 
     def _step(self, r: float, psi_deg: float) -> None:
         self._set(self._r.value + r, round(self._psi.value) + psi_deg if psi_deg else None)
-
-    def _hide(self) -> None:
-        self._shown.value = not self._shown.value
-        self._context.wake()
 
     def _clicked(self, event: viser.SceneClickEvent) -> None:
         state = self._context.state()
@@ -436,7 +425,6 @@ class ProbePanel:
         picked = on_blade or pick(state.solution, origin, event.ray_direction)
         if picked is not None:
             self._set(picked[0], picked[1] if on_blade else round(math.degrees(picked[1])) % 360)
-            self._context.layout.open_drawer("probe")
 
 
 def _drawn_pitch(state: SessionState, here: Probe) -> float:

@@ -72,7 +72,9 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     # Once it rests, the page is given what its address cannot hold.
     kept = "() => JSON.parse(sessionStorage.getItem('rx-kept') ?? '{}').d?.includes('own.cor')"
     watched.page.wait_for_function(kept, timeout=2 * WAIT)
-    watched.page.wait_for_selector('.rxf-chip[data-explorer="status"][data-kind="converged"]', state="attached")
+    watched.page.wait_for_selector(
+        '.rxf-chip[data-explorer="status"][data-kind="converged"]', state="attached"
+    )
     watched.page.wait_for_function("() => location.search.includes('d=own')")
     watched.answered()
     power, address = watched.text("total-power"), watched.page.url
@@ -88,7 +90,9 @@ def test_files_of_ones_own(watched: Watched, tmp_path: Path):
     other.goto(address)
     other.wait_for_selector("text=Its rotor is the sender's own and too large for a link")
     other.get_by_role("button", name="Show the UH-60A instead").click()
-    other.wait_for_selector('.rxf-chip[data-explorer="status"][data-kind="converged"]', state="attached")
+    other.wait_for_selector(
+        '.rxf-chip[data-explorer="status"][data-kind="converged"]', state="attached"
+    )
     other.close()
 
 

@@ -282,9 +282,7 @@ class TestAngles:
 class TestDrawing:
     def test_the_section_stands_at_its_pitch_and_the_wind_at_its_angle(self, fast: Solution):
         p = probe(fast, 0.75, math.radians(270.0))
-        drawn, scales = drawing(p, 300.0, 8e3)
-        assert scales.angles == 1
-        assert "angles ×3" in probe_panel(probe(fast, 0.75, math.radians(90.0)), fast, opened=True)
+        drawn, _ = drawing(p, 300.0, 8e3)
         shape = np.array(numbers_of(re.findall(r'points="([^"]*)"', drawn)[0])).reshape(-1, 2)
         assert len(shape) == 61  # The outline is the first polygon.
         nose, tail = shape[30], 0.5 * (shape[0] + shape[-1])
@@ -298,8 +296,7 @@ class TestDrawing:
     def test_in_reverse_flow_the_wind_comes_from_the_trailing_edge(self, fast: Solution):
         p = probe(fast, 0.25, math.radians(270.0))
         assert p.region is FlowRegion.REVERSE
-        drawn, scales = drawing(p, 300.0, 8e3, opened=True)
-        assert scales.angles == 1  # Large angles stay as they are.
+        drawn, _ = drawing(p, 300.0, 8e3)
         wind = next(
             line for line in re.findall(r"<line[^>]*>", drawn) if 'stroke-width="2.6"' in line
         )

@@ -222,7 +222,7 @@ def test_the_view_rides_with_the_chosen_section_and_gives_back_what_was_there(ap
         await visitor.press("riding", 210.0)
         await visitor.idle(wholly=False)
         assert page.context.display.view.azimuth_deg == azimuth
-        assert not page._views.probe._shown.value
+        assert not visitor.frame["bar"]["drawer"]
         assert visitor.frame["ride_cost"] is None
         # The section of the drawer, which comes back after it.
         await visitor.press("section", [0.62, 285.0])

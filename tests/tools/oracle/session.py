@@ -46,7 +46,6 @@ WALK: Mapping[str, Sequence[Action]] = {
     "details": (("press", "drawer", "details"),),
     "trust": (("press", "drawer", "trust"),),
     "probe": (("press", "drawer", "probe"), ("press", "section", [0.8, 250.0])),
-    "angles": (("move", "Enlarge angles", True),),
     "disk": (("press", "view", "disk"),),
     "from above": (("press", "view", "top"),),
     "Mach number": (("press", "field", "Mach number"),),
