@@ -86,7 +86,7 @@ class _Moment:
 
     def _separated(self) -> str:
         if not self.here.past_static:
-            return "The angle of attack is below static stall again; the flow is still separated: it closes late."
+            return "The angle of attack is below static stall again; the flow is still separated: it reattaches late."
         if self.here.unsteady is None:
             return "Past the static stall angle the flow is separated: drag is high."
         if self.alpha_rises and self.lift_rises:

@@ -3,11 +3,12 @@
 // so far, the air that the section meets, and the way of its point beside the static lift curve. Any key, or a press
 // beside the card, leads out again.
 (() => {
-  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, paced, viewer, staleMark, calm, closest} = Common;
+  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, paced, viewer, outdate, calm, closest} = Common;
   const {part} = RX, page = document.documentElement, place = part('ride'), TURN = 16000;
+  const find = name => place.querySelector(name);
   const STAYS = 1500;  // [ms] What the turn has cost is read at its end.
   const MODIFIERS = ['Shift', 'Control', 'Alt', 'Meta', 'Tab'];
-  let section = null, begun = 0, height = 118, covered = 0;
+  let section = null, begun = 0, arrived = 0, height = 118, covered = 0;
   const passing = paced(psi => RX.send('riding', psi), 250);
 
   RX.paint('ride', ride => {
@@ -15,7 +16,7 @@
     section = ride;
     page.toggleAttribute('data-ride', Boolean(ride));
     place.hidden = !ride;
-    if (begins) { begun = performance.now(); requestAnimationFrame(go); place.focus(); }
+    if (begins) { begun = performance.now(); arrived = covered = 0; requestAnimationFrame(go); place.focus(); }
     if (ride) return;
     passing.drop();
     Charts.turn(null);
@@ -30,7 +31,8 @@
     rotorScene.ride(psi * DEGREE, section, covered);
     Charts.turn({'ψ': turned(psi), 'r/R': section.r});
     passing.send(Math.round(turned(psi)));
-    if (now - begun < TURN + STAYS) requestAnimationFrame(go); else end();
+    if (share === 1) arrived ||= now;
+    if (arrived && now - arrived > STAYS) end(); else requestAnimationFrame(go);
   }
   // Which part of the canvas the card covers from below; another height of the card is followed slowly.
   function cardShare() {
@@ -53,7 +55,12 @@
     if (event.key === 'Escape' || event.key === ' ') { event.stopPropagation(); event.preventDefault(); }
     end();
   }, true);
-  addEventListener('pointerdown', event => { if (closest(event, 'canvas')) end(); }, true);
+  // A press on the scene leads back and picks nothing there.
+  addEventListener('pointerdown', event => {
+    if (!section || !closest(event, 'canvas')) return;
+    event.stopPropagation();
+    end();
+  }, true);
   place.addEventListener('click', event => { if (closest(event, '[data-page-ride]')) end(); });
   // The same button leads back.
   addEventListener('click', event => {
@@ -99,7 +106,8 @@
       <text x="4" y="${y + 16}">disk plane</text>
       <text x="${(start[0] + edge[0]) / 2}" y="${Math.min(start[1], edge[1]) - 9}" text-anchor="middle">${
         fixed(Math.abs(u))} m/s</text>
-      <text x="${tip[0] + 8}" y="${tip[1] + (size > 0 ? 10 : 2)}" style="fill:var(--rx-accent)">lift</text>`;
+      ${Math.abs(size) < 16 ? '' : `<text x="${tip[0] + 8}" y="${tip[1] + (size > 0 ? 10 : 2)}"
+        style="fill:var(--rx-accent)">lift</text>`}`;
   }
   // The part of the turn that lies behind, as pieces of points of the lift curve; the blade has none in reverse flow.
   function wayBehind(passed, {X, Y}) {
@@ -210,19 +218,27 @@
       data-${name} aria-label="${label}">${content}</svg>`;
     const price = parted || cost?.spent.length === 0 ? cost?.words ?? ''
       : `${cost?.words ?? ''}; nothing is separated at this radius`;
-    place.innerHTML = `<div class="rxf-head"><b class="rxf-num">${section.r.toFixed(2)} R · ψ ${Math.round(psi)}°</b>
-        <span class="rxf-dim">${text(section.where[nearer])} · ${text(section.section)}</span>
-        <span class="rxf-num ${bad ? 'rxf-bad' : ''}" data-value>${text(words)}</span>
-        <button data-page-ride aria-label="Leave the blade" title="Leave the blade (Esc)">×</button></div>
-      <div class="rxf-filled ${bad ? 'rxf-bad' : ''}" role="img"
-        aria-label="Angle of attack over the static stall angle: ${Math.round(filled)} %">
-        <i style="width:${filled.toFixed(1)}%"></i></div>
-      <p><span data-explorer="ride-seen">${text(section.seen[nearer])}</span>
-        <span class="rxf-num" data-explorer="ride-cost"${staleMark(cost?.stale)}>${text(price)}</span></p>
-      <div class="rxf-row">${svg(height, 'ring', 'The turn from above, the nose up: where the flow is separated',
-        drawTurn(passed))}${svg(half, 'section', 'The section with the air it meets and its lift',
-        drawSection(values, half))}${svg(frame.width, 'lift',
-        'Lift coefficient over the angle of attack: the static curve and the way of this section',
-        drawLift(values, passed, frame))}</div>`;
+    find('b').textContent = `${section.r.toFixed(2)} R · ψ ${Math.round(psi)}°`;
+    find('.rxf-dim').textContent = `${section.where[nearer]} · ${section.section}`;
+    find('[data-value]').textContent = words;
+    find('[data-value]').classList.toggle('rxf-bad', bad);
+    find('.rxf-filled').classList.toggle('rxf-bad', bad);
+    find('.rxf-filled').ariaLabel = `Angle of attack over the static stall angle: ${Math.round(filled)} %`;
+    find('.rxf-filled i').style.width = `${filled.toFixed(1)}%`;
+    find('[data-explorer=ride-seen]').textContent = section.seen[nearer];
+    find('[data-explorer=ride-cost]').textContent = price;
+    outdate(find('[data-explorer=ride-cost]'), cost?.stale);
+    find('.rxf-row').innerHTML = `${svg(height, 'ring',
+      'The turn from above, the nose up: where the flow is separated', drawTurn(passed))}${svg(half, 'section',
+      'The section with the air it meets and its lift', drawSection(values, half))}${svg(frame.width, 'lift',
+      'Lift coefficient over the angle of attack: the static curve and the way of this section',
+      drawLift(values, passed, frame))}`;
   }
+  // What a press may meet stays the same while the numbers change.
+  place.innerHTML = `<div class="rxf-head"><b class="rxf-num"></b><span class="rxf-dim"></span>
+      <span class="rxf-num" data-value></span>
+      <button data-page-ride aria-label="Leave the blade" title="Leave the blade (Esc)">×</button></div>
+    <div class="rxf-filled" role="img"><i></i></div>
+    <p><span data-explorer="ride-seen"></span><span class="rxf-num" data-explorer="ride-cost"></span></p>
+    <div class="rxf-row"></div>`;
 })();

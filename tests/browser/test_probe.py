@@ -270,7 +270,7 @@ def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched)
     watched.until_changed(lambda: card.locator("b").inner_text(), first)
     # Beside the blade; elsewhere it sees the disk.
     watched.until(lambda: np.linalg.norm(eye(watched)) < 1.5 * RADIUS)
-    assert card.locator("circle").count() == 1
+    assert card.locator("[data-flown]").count() == 1
     page.wait_for_timeout(1000)  # Until the camera has its seat.
     out = place[1] - uh60a_rotor("flight").blade.flap_hinge * RADIUS
     for _ in range(4):
@@ -288,6 +288,77 @@ def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched)
     page.evaluate("() => RX.send('aim')")
     watched.answered()
     assert watched.at_rest(lambda: eye(watched).round(2).tolist()) == pytest.approx(after, abs=0.1)
+
+
+LEFT = """() => !RX.state.ride && !RX.state.ride_cost && RX.state.bar.drawer === ''
+    && !document.documentElement.hasAttribute('data-ride') && document.querySelector('[data-explorer=ride]').hidden
+    && ![...document.querySelectorAll('[data-turn]')].some(line => line.getAttribute('d'))"""
+"""Whether nothing of a ride is left: card, price, drawer, lines on charts."""
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("way", ["Escape", "cross", "scene", "Ride", "Side"])
+def test_the_view_ride_leaves_the_page_as_it_was(watched: Watched, way: str):
+    page = watched.page
+    page.keyboard.press("Escape")
+    page.wait_for_function("() => !RX.state.bar.drawer")
+    page.keyboard.press("1")
+    watched.until(lambda: stands(watched, "3d"))
+    azimuth = page.evaluate("() => RX.state.turn.psi")
+    view = page.locator("[data-do=view][data-value=ride]")
+    view.click()
+    card = page.locator("[data-explorer=ride]")
+    card.locator("b").wait_for()
+    assert view.get_attribute("aria-pressed") == "true"
+    watched.until(lambda: bool(page.evaluate(MARKED)))
+    assert (
+        page.locator("footer.rxf-strip").evaluate("strip => getComputedStyle(strip).opacity") == "1"
+    )
+    box = watched.box(card)
+    for other in (".rxf-views", ".rxf-power", "footer.rxf-strip"):
+        beside = watched.box(page.locator(other))
+        assert box["y"] >= beside["y"] + beside["height"] or box["y"] + box["height"] <= beside["y"]
+    match way:
+        case "Escape":
+            page.keyboard.press("Escape")
+        case "cross":
+            card.get_by_role("button", name="Leave the blade").click()
+        case "scene":
+            canvas = watched.box(page.locator("canvas").first)
+            page.mouse.click(canvas["x"] + 0.5 * canvas["width"], box["y"] - 40.0)
+        case _:
+            page.locator(".rxf-views").get_by_role("button", name=way).click()
+    page.wait_for_function(LEFT)
+    if way == "Side":
+        watched.until(lambda: stands(watched, "side"))
+    else:
+        watched.until(lambda: stands(watched, "3d"))
+    assert page.evaluate("() => RX.state.views.now") == ("side" if way == "Side" else "3d")
+    watched.until(lambda: page.evaluate("() => RX.state.turn.psi") == azimuth)
+
+
+MARKED = "() => [...document.querySelectorAll('[data-turn]')].some(line => line.getAttribute('d'))"
+
+
+@pytest.mark.slow
+def test_at_the_end_of_its_turn_a_ride_has_counted_what_stall_costs(watched: Watched):
+    page = watched.page
+    page.evaluate("() => RX.send('slide', ['mass_t', 9.8])")
+    watched.answered()
+    page.evaluate("() => RX.idle(true)")
+    page.keyboard.press("5")
+    page.wait_for_function("() => RX.state.ride_cost?.spent.length")
+    words = page.locator("[data-explorer=ride-cost]").inner_text()
+    ring = page.locator("[data-explorer=ride] [data-ring]")
+    ring.locator("[data-separated]").first.wait_for(state="attached")
+    at_end = "() => { const t = document.querySelector('[data-ring]')?.textContent; return t && !/so far/.test(t); }"
+    page.wait_for_function(at_end)
+    cost = page.locator("[data-cost]").inner_text()
+    assert float(cost) > 1.0
+    assert words.startswith("Stall costs ")
+    assert words.endswith(f" {cost} kW")
+    page.wait_for_function(LEFT)
+    watched.reset()
 
 
 def test_keys_are_listed_and_the_palette_finds_them(watched: Watched):
