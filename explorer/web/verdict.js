@@ -24,7 +24,7 @@
     const built = opens ? `<button data-unfold="limits" aria-expanded="false" title="Show the limits">${text(buildable)}
       </button>` : `<span>${text(buildable)}</span>`;
     const range = reach && `Twist that the actuator adds at the tip in flight, positive nose up: ${reach}`;
-    const title = `By schedule, ${mission}. ± is one standard deviation.`;
+    const title = `By schedule, ${mission}. ± is one standard deviation${sure && `; the sign is ${sure}`}.`;
     return [
       buildable ? built : problem ? '' : '<span class="rxf-dim">checking limits …</span>',
       `<span title="${text(range)}">moves <b data-explorer="moves">${text(tip)}</b>${end && ` of ${text(end)}`}</span>`,
