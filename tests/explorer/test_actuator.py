@@ -8,7 +8,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -408,7 +408,8 @@ def test_the_rail_follows_design_voltage_and_verdict(verdict: Verdict):
     assert [len(one.calls) for one in ACTUATOR.asks(flown)] == [1, 1, 0]
     paying = replace(flown, hand=replace(flown.hand, on_stage=True))
     weak = {"PZT5A", "PZT5H", "SMA_tube", "extension_twist"}
-    beside = {call.arguments[0].actuator for call in ACTUATOR.asks(paying)[2].calls}
+    asked = [cast("Any", call.arguments[0]) for call in ACTUATOR.asks(paying)[2].calls]
+    beside = {question.actuator for question in asked}
     assert beside == set(ALL) - weak - {"MFC_P1"}
     refused = ACTUATOR.view(told(ACTUATOR, now, lean_verdict="No such blade."))
     assert "No such blade." in refused["actuator.verdict"]
@@ -424,7 +425,7 @@ def test_where_there_is_no_such_design_the_sentence_stands_alone():
     turned = replace(actuate(INPUTS), inputs=free, sliders=free.design(), state=None)
     other_rotor = actuate(with_rotor(INPUTS, "s61"))
     for other, why in ((other_rotor, "choose that rotor."), (turned, "another trim.")):
-        shown = ACTUATOR.view(other)
+        shown = dict(ACTUATOR.view(other))
         assert why in shown.pop("actuator.verdict")
         form: FormLook = shown.pop("actuator.form")
         assert not form.carried
