@@ -211,26 +211,26 @@ def test_the_view_rides_with_the_chosen_section_and_gives_back_what_was_there(ap
         ride = visitor.frame["ride"]
         assert ride["r"] == pytest.approx(telling_station(page.latest.state.solution), abs=0.006)
         assert ride["psi"] == FIRST_PSI
-        assert views(visitor) == "ride"
+        await visitor.until(lambda: views(visitor) == "ride")
         await visitor.until(lambda: visitor.frame.get("ride_cost") is not None)
         await visitor.press("riding", 200.0)
         await visitor.until(lambda: page.context.display.view.azimuth_deg == 200.0)
         await visitor.press("ride", "off")
         await visitor.until(lambda: visitor.frame["ride"] is None and views(visitor) == "3d")
-        assert page.context.display.view.azimuth_deg == azimuth
+        await visitor.until(lambda: page.context.display.view.azimuth_deg == azimuth)
         # What comes late moves nothing.
         await visitor.press("riding", 210.0)
         await visitor.idle(wholly=False)
         assert page.context.display.view.azimuth_deg == azimuth
         assert not visitor.frame["bar"]["drawer"]
-        assert visitor.frame["ride_cost"] is None
+        await visitor.until(lambda: visitor.frame["ride_cost"] is None)
         # The section of the drawer, which comes back after it.
         await visitor.press("section", [0.62, 285.0])
         await visitor.until(lambda: visitor.frame["bar"]["drawer"] == "probe")
         await visitor.press("view", "ride")
         await visitor.until(lambda: visitor.frame["ride"] is not None)
         assert (visitor.frame["ride"]["r"], visitor.frame["ride"]["psi"]) == (0.62, 285.0)
-        assert visitor.frame["bar"]["drawer"] == ""
+        await visitor.until(lambda: visitor.frame["bar"]["drawer"] == "")
         await visitor.press("view", "ride")
         await visitor.until(lambda: visitor.frame["bar"]["drawer"] == "probe")
         # Another view, and another mode, end it.
@@ -239,7 +239,7 @@ def test_the_view_rides_with_the_chosen_section_and_gives_back_what_was_there(ap
             await visitor.until(lambda: visitor.frame["ride"] is not None)
             await visitor.press(*press)
             await visitor.until(lambda: visitor.frame["ride"] is None)
-            assert views(visitor) == "side"
+            await visitor.until(lambda: views(visitor) == "side")
         await visitor.close()
 
     ran(visit)
