@@ -335,7 +335,6 @@ def _head(probe: Probe) -> Markup:
         tag("span.rx-best", alpha, data_explorer="probe-alpha", title=_alpha_tip(probe)),
         tag("span.rx-dim", where(probe.psi), data_explorer="probe-place"),
         tag(chip, probe.region.value, data_explorer="probe-region", title=tip("probe_region")),
-        tag("button", "Ride along", data_do="ride", title=tip("ride")),
     )
 
 

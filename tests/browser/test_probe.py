@@ -261,7 +261,7 @@ def test_a_ride_goes_round_with_the_section_and_esc_leads_back(watched: Watched)
     page = watched.page
     page.keyboard.press("1")
     watched.until(lambda: stands(watched, "3d"))  # A busy machine begins the flight late.
-    page.get_by_role("button", name="Ride along").click()
+    page.locator("[data-do=view][data-value=ride]").click()  # With the section of the drawer.
     card = page.locator("[data-explorer=ride]")
     card.wait_for()
     place = page.evaluate("() => [RX.state.ride.r, RX.state.ride.out]")
