@@ -24,16 +24,10 @@ class Game:
     score: Design | None = None
     """What somebody reached; None: nobody yet."""
 
-    @property
-    def law(self) -> str:
-        """Twist law of the search, of `LAWS`."""
-        return next(_laws(self.least))
-
     def holds(self, inputs: Inputs) -> bool:
-        """Whether these inputs are a try: the same flight, models and rotor, and the twist law of the search or that
-        of the start on the sliders."""
-        known = inputs.law in (self.law, inputs_of(self.start).law)
-        return known and same_but_twist(self.least, inputs.design())
+        """Whether these inputs are a try: the same flight, models and rotor, and a twist that sliders hold."""
+        by_hand = inputs.law not in NOT_ALWAYS
+        return by_hand and same_but_twist(self.least, inputs.design())
 
     def code(self) -> str:
         """As text for an address; ValueError where no address holds the rotor."""
