@@ -270,7 +270,7 @@ def test_the_mission_of_the_verdict_leads_to_its_hours(visit: Visit):
     watched = visit(size=LARGE)
     page = watched.page
     watched.mode("actuate")
-    watched.reads("assessed", "same blade without it")
+    watched.reads("assessed", "over the mission")
     page.get_by_role("button", name="mission", exact=True).click()
     assert page.evaluate("() => document.activeElement.dataset.hours") == "0"
     page.keyboard.type("2")

@@ -82,7 +82,8 @@ def click_disk(watched: Watched, r: float, psi_deg: float) -> tuple[float, float
 
 def test_a_click_on_the_disk_sets_the_probe_and_shows_it(watched: Watched):
     page = watched.page
-    assert not watched.seen(ON_BLADE)
+    page.evaluate("() => RX.send('drawer', '')")
+    watched.until(lambda: not watched.seen(ON_BLADE))
     page.keyboard.press("2")
     watched.until(lambda: stands(watched, "top"))
     watched.at_rest(lambda: eye(watched).round(2).tolist())
@@ -353,7 +354,7 @@ def test_at_the_end_of_its_turn_a_ride_has_counted_what_stall_costs(watched: Wat
     ring.locator("[data-separated]").first.wait_for(state="attached")
     at_end = "() => { const t = document.querySelector('[data-ring]')?.textContent; return t && !/so far/.test(t); }"
     page.wait_for_function(at_end)
-    cost = page.locator("[data-cost]").inner_text()
+    cost = page.locator("[data-cost]").text_content() or ""
     assert float(cost) > 1.0
     assert words.startswith("Stall costs ")
     assert words.endswith(f" {cost} kW")

@@ -53,7 +53,7 @@ def test_without_webgl_all_but_the_scene_works(
         watched.mode("actuate")
         watched.reads("line", r"with MFC")
         watched.until(lambda: plan_is_drawn(page))
-        assert re.search(r"moves [+−]?\d.* \d+ kg", page.inner_text("[data-part=verdict]"))
+        assert re.search(r"(?s)moves [+−]?\d.*\d+ kg", page.inner_text("[data-part=verdict]"))
         watched.drawer("share")
         page.get_by_role("button", name="Picture", exact=True).click()
         page.get_by_text("This browser draws no 3D").wait_for()
