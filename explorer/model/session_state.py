@@ -153,7 +153,7 @@ class Pinboard:
 
     def put_back(self, inputs: Inputs | None) -> None:
         """Pin what was A with these inputs, its actuator too; else as `put`."""
-        known = [pinned for pinned in self._before if pinned.inputs == inputs]
+        known = [pinned for pinned in self._before.copy() if pinned.inputs == inputs]
         self._put.append(known[0] if known else inputs)
 
     @property

@@ -34,7 +34,7 @@ _STEADY_ALPHA, _STEADY_SPEED = math.radians(0.05), 0.5
 
 
 def telling_station(solution: Solution) -> float:
-    """r/R of the section on which a turn shows most of stall.
+    """r/R of the section whose turn shows the most stall.
 
     It is the one over which most separated air passes in a turn. Where no flow is separated, it is the one that comes
     nearest to separation, as `Solution.least_margin` counts it. 0.75 where sections do not stall.
@@ -59,18 +59,19 @@ class _Moment:
     here: Probe
     alpha_rises: bool
     lift_rises: bool
-    speed_rises: bool
+    speed_rises: bool | None
+    """None where the velocity is the same around the turn."""
 
     @property
     def sentence(self) -> str:
-        """What is seen."""
+        """One sentence on what the flow does here."""
         match self.here.region:
             case FlowRegion.IDLE:
                 return "Reverse flow: the air comes from the trailing edge. The model leaves its loads out."
             case FlowRegion.REVERSE:
                 return "Reverse flow: the air comes from the trailing edge."
             case FlowRegion.SEPARATED | FlowRegion.PAST_STATIC if self._past_negative_stall:
-                return "The air comes from far above: the angle of attack is past static stall below zero."
+                return "The flow comes from above: the angle of attack is beyond negative static stall."
             case FlowRegion.SEPARATED:
                 return self._separated()
             case FlowRegion.PAST_STATIC:
@@ -106,10 +107,13 @@ class _Moment:
 
     def _attached(self) -> str:
         margin = self.here.stall_margin
-        air = "faster" if self.speed_rises else "slower"
         angle = "grows" if self.alpha_rises else "falls"
-        joint = "and" if self.alpha_rises != self.speed_rises else "yet"
-        sentence = f"The blade turns into {air} air, {joint} the angle of attack {angle}"
+        if self.speed_rises is None:
+            sentence = f"The angle of attack {angle}"
+        else:
+            air = "faster" if self.speed_rises else "slower"
+            joint = "and" if self.alpha_rises != self.speed_rises else "yet"
+            sentence = f"The blade turns into {air} air, {joint} the angle of attack {angle}"
         if self.alpha_rises and margin is not None and margin < _LITTLE_MARGIN:
             return f"{sentence}: little is left to static stall."
         return f"{sentence}."
@@ -119,7 +123,8 @@ def seen_around(around: Sequence[Probe]) -> list[str]:
     """What is seen at each point of a turn, one sentence each."""
     speeds = [math.copysign(here.u, here.u_t) for here in around]
     alphas = [here.alpha for here in around]
-    if np.ptp(alphas) < _STEADY_ALPHA and np.ptp(speeds) < _STEADY_SPEED:
+    steady = bool(np.ptp(speeds) < _STEADY_SPEED)
+    if np.ptp(alphas) < _STEADY_ALPHA and steady:
         return ["Nothing changes around this turn: the air is the same at every azimuth."] * len(
             around
         )
@@ -131,7 +136,7 @@ def seen_around(around: Sequence[Probe]) -> list[str]:
             here,
             alpha_rises=after.alpha > before.alpha,
             lift_rises=after.cl > before.cl,
-            speed_rises=after.u_t > before.u_t,
+            speed_rises=None if steady else after.u_t > before.u_t,
         )
         sentences.append(moment.sentence)
     return sentences

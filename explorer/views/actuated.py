@@ -88,7 +88,7 @@ def no_carrier(now: PageState) -> str:
 
 
 def immovable_kinds(now: PageState) -> Mapping[str, str]:
-    """Why each kind that cannot move this blade cannot, by kind: as it comes, the chosen one as it is set."""
+    """Kind → why it cannot move this blade. Other kinds are tested as they come, the chosen one as it is set."""
     blade = actuated_blade(now)
     if blade is None:
         return {}

@@ -109,7 +109,7 @@ def _actuator(one: ActuatedBlade) -> list[LinePiece]:
 
 
 def _actuator_menu(one: ActuatedBlade) -> LineMenu:
-    """The actuators that the blade can carry, as in the menu of the rail."""
+    """All actuators; the rail's menu leaves out those that cannot move this blade."""
     chosen = one.inputs.actuator
     titles = actuator_titles()
     options = [LineOption(title, "kind", id, id == chosen) for id, title in titles.items()]

@@ -67,10 +67,8 @@ def view(now: PageState) -> dict[str, Any]:
 
 
 def _kinds(one: ActuatedBlade, now: PageState) -> Markup:
-    """Every kind on this blade, as it comes, beside the chosen one as set: by press, for they take a while."""
-    state, words = (
-        ("off", "Close the comparison") if now.hand.on_stage else ("on", "Compare all kinds")
-    )
+    """Every kind that moves this blade, as it comes, beside the chosen one as set: by press, for they take a while."""
+    state, words = ("off", "Close the comparison") if now.hand.on_stage else ("on", "Compare kinds")
     press = tag("button.rx-link", words, data_do="suppose", data_value=state, type="button")
     if not now.hand.on_stage:
         return tag("div.rx", press, data_explorer="kinds")

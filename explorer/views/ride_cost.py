@@ -64,7 +64,7 @@ def price_summed(added_around: Array, steps: int) -> Array:
     azimuths = len(added_around)
     step = 2.0 * math.pi / azimuths
     shares = -added_around / azimuths
-    # The part about ψ = 0 lies half before the turn's end.
+    # Half of the part about ψ = 0 lies at the end of the turn.
     ends = step * (np.arange(-1, azimuths + 1) + 0.5)
     reached = np.concatenate([[0.0], np.cumsum(np.append(shares, shares[0]))])
     psi = np.linspace(0.0, 2.0 * math.pi, steps + 1)

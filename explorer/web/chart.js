@@ -244,7 +244,7 @@ const Charts = (() => {
   let read = null;
   function rest() {
     const value = read?.querySelector('[data-value]');
-    if (value) value.textContent = read.drawn.chart.value ?? '';
+    if (value && read.drawn) value.textContent = read.drawn.chart.value ?? '';
     read?.querySelector('[data-hair]')?.removeAttribute('d');
     read = null;
   }

@@ -107,8 +107,8 @@
   // The browser makes no click where what was pressed is drawn anew before the release, as a card is with every answer:
   // then the same control under the pointer is clicked here.
   let pressed = null, onDisk = null;  // Where from the left [px] the disk was pressed, if it was that last.
-  const controlOf = event => closest(event, '[data-do], [data-page], [data-harmonic]');
-  const NAMES = ['do', 'value', 'page', 'harmonic'];
+  const controlOf = event => closest(event, '[data-do], [data-page], [data-harmonic], [data-unfold], [data-mission]');
+  const NAMES = ['do', 'value', 'page', 'harmonic', 'unfold', 'mission'];
   document.addEventListener('pointerdown', event => {
     pressed = event.button === 0 ? {target: event.target, control: controlOf(event)} : null;
     onDisk = closest(event, 'canvas, .rxf-plan') ? event.clientX : null;

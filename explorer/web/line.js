@@ -40,7 +40,7 @@
   const TRUST = 'role="button" tabindex="0" data-do="drawer" data-value="trust"';
 
   function draw(line) {
-    const {pieces, status, problem} = line, focused = closest({target: document.activeElement}, '[data-handle]');
+    const {pieces, status, problem} = line, focused = closest({target: document.activeElement}, '[data-handle], span[data-value=trust]');
     controls.clear();
     menus.clear();
     const words = pieces.map(({text: said, part: name, kind, stale, title, control, menu}) => {
@@ -61,7 +61,8 @@
     place.toggleAttribute('data-problem', Boolean(problem));
     document.documentElement.toggleAttribute('data-refused', Boolean(problem));
     if (focused && !focused.isConnected)
-      (handle(focused.dataset.handle) ?? handle('advance_ratio'))?.focus({preventScroll: true});
+      (focused.dataset.value ? place.querySelector('span[data-value=trust]')
+        : handle(focused.dataset.handle) ?? handle('advance_ratio'))?.focus({preventScroll: true});
     follow();
     clearTimeout(told);
     told = setTimeout(() => RX.say(spoken()), problem ? 0 : LATER);  // Once no answer follows.
@@ -201,10 +202,11 @@
     if (!opened) return;
     const {name, control, moved} = opened, menu = menus.get(name), found = controls.get(name);
     if (menu) return showOptions(menu);
-    if (!control) return close(false);
+    const inside = values.contains(document.activeElement);
+    if (!control) return close(inside);
     if (found) opened.control = found;
     // In hover there is no airspeed to say; at its usual value a number may have no place in the line.
-    else if (moved === -Infinity) return close(false);
+    else if (moved === -Infinity) return close(inside);
     else control.value = [...controls.values()].find(one => one.slider === control.slider)?.value ?? control.value;
     const wait = opened.held ? REST : moved + REST - performance.now();
     clearTimeout(followed);

@@ -1,14 +1,14 @@
 // @ts-check
 // One slow turn with a blade section: the camera goes with it. A card shows the way round and what separated flow costs
-// so far, the air that the section meets, and the way of its point beside the static lift curve. Any key, or a press
-// beside the card, leads out again.
+// so far, the air that the section meets, and the way of its point beside the static lift curve. Any key outside the
+// panels, or a press on the scene, ends it.
 (() => {
-  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, paced, viewer, outdate, calm, closest} = Common;
+  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, paced, viewer, outdate, staleMark, calm, closest} = Common;
   const {part} = RX, page = document.documentElement, place = part('ride'), TURN = 16000;
   const find = name => place.querySelector(name);
   const STAYS = 1500;  // [ms] What the turn has cost is read at its end.
   const MODIFIERS = ['Shift', 'Control', 'Alt', 'Meta', 'Tab'];
-  let section = null, begun = 0, arrived = 0, height = 118, covered = 0;
+  let section = null, origin = null, begun = 0, arrived = 0, height = 118, covered = 0;
   const passing = paced(psi => RX.send('riding', psi), 250);
 
   RX.paint('ride', ride => {
@@ -16,7 +16,13 @@
     section = ride;
     page.toggleAttribute('data-ride', Boolean(ride));
     place.hidden = !ride;
-    if (begins) { begun = performance.now(); arrived = covered = 0; requestAnimationFrame(go); place.focus(); }
+    if (begins) {
+      begun = performance.now();
+      arrived = covered = 0;
+      origin = document.activeElement;
+      requestAnimationFrame(go);
+      place.focus();
+    }
     if (ride) return;
     passing.drop();
     Charts.turn(null);
@@ -45,6 +51,7 @@
     if (!section) return;
     section = null;
     passing.drop();
+    if (place.contains(document.activeElement)) origin?.focus({preventScroll: true});
     place.hidden = true;
     page.removeAttribute('data-ride');
     Charts.turn(null);
@@ -191,7 +198,7 @@
   function drawCost(passed, middle) {
     const cost = RX.state.ride_cost;
     if (!cost?.spent.length) return '';
-    return `<text x="${middle}" y="${middle + 3}" text-anchor="middle" class="rxf-num" data-cost>${
+    return `<text x="${middle}" y="${middle + 3}" text-anchor="middle" class="rxf-num" data-cost${staleMark(cost.stale)}>${
         fixed(costSoFar(passed, cost), 1)}</text>
       <text x="${middle}" y="${middle + 17}" text-anchor="middle">${text(cost.unit)}${
         passed < 360 ? ' so far' : ''}</text>`;
@@ -216,8 +223,8 @@
     const parted = section.region.includes('separated');
     const svg = (size, name, label, content) => `<svg viewBox="0 0 ${size} ${height}" style="width:${size}px" role="img"
       data-${name} aria-label="${label}">${content}</svg>`;
-    const price = parted || cost?.spent.length === 0 ? cost?.words ?? ''
-      : `${cost?.words ?? ''}; nothing is separated at this radius`;
+    const price = parted || !cost?.spent.length ? cost?.words ?? ''
+      : `${cost.words}; nothing is separated at this radius`;
     find('b').textContent = `${section.r.toFixed(2)} R · ψ ${Math.round(psi)}°`;
     find('.rxf-dim').textContent = `${section.where[nearer]} · ${section.section}`;
     find('[data-value]').textContent = words;

@@ -10,6 +10,8 @@
     card.hidden = !shown;
     page.toggleAttribute('data-assessed', shown);
     if (!one || !shown) return;
+    const before = document.activeElement;
+    const focused = before && card.contains(before) ? namesOf(before) : '';
     write(card, `<p class="rxv-row rxf-num" data-explorer="assessed">${row(one)}</p>${limits(one)}
       <div class="rxv-head"><span class="rxf-dim" data-explorer="scale-unit">${heading(one.scale)}</span>
         ${compared(one)}</div>${scale(one.scale)}
@@ -17,13 +19,17 @@
     const button = card.querySelector('[data-unfold]');
     if (button) button.ariaExpanded = String(Boolean(page.dataset.unfolded?.split(' ').includes('limits')));
     arrange();
+    if (focused && !card.contains(document.activeElement)) card.querySelector(focused)?.focus({preventScroll: true});
   });
+  // A selector of the same control in the card that is drawn next.
+  const namesOf = (/** @type {any} */ {dataset}) => ['do', 'value', 'unfold', 'mission', 'explorer'].filter(name => name in dataset)
+    .map(name => `[data-${name}="${dataset[name]}"]`).join('');
 
   function row({buildable, tip, end, reach, mass, earns, sure, mission, problem, over, required}) {
     const opens = over.length + required.length;
     const built = opens ? `<button data-unfold="limits" aria-expanded="false" title="Show the limits">${text(buildable)}
       </button>` : `<span>${text(buildable)}</span>`;
-    const range = reach && `Twist that the actuator adds at the tip in flight, positive nose up: ${reach}`;
+    const range = reach && `Range of tip twist in flight, nose up positive: ${reach}`;
     const title = `By schedule, ${mission}. ± is one standard deviation${sure && `; the sign is ${sure}`}.`;
     return [
       buildable ? built : problem ? '' : '<span class="rxf-dim">checking limits …</span>',
@@ -32,7 +38,7 @@
       earns ? `<span title="${text(title)}"><b data-explorer="gives">${text(earns)}</b> over the
         <button data-mission title="Set its hours">mission</button>${sure
         && ` <span class="rxf-dim" data-cap>(${text(sure)})</span>`}</span>`
-        : problem ? '' : '<span class="rxf-dim">mission …</span>',
+        : problem ? `<span>${text(problem)}</span>` : '<span class="rxf-dim">mission …</span>',
     ].filter(Boolean).join(' ');
   }
 
@@ -70,7 +76,7 @@
         ${flown ? 'data-flown' : ''}${staleMark(stale)}></i>`;
     }).join('');
     const labels = marks.map(({name, value, at, band, flown, stale}) => `<span data-at="${share(at)}"
-      title="${text(band ? `${name}: the change has a band of ± ${band} ${powers.unit}` : name)}"
+      title="${text(band ? `${name}: the change has a band of ± ${Number(band.toPrecision(2))} ${powers.unit}` : name)}"
       ${flown ? 'data-flown' : ''}${staleMark(stale)}>${text(name)}<b>${text(value)}</b></span>`).join('');
     return `<div class="rxv-scale rxf-num" role="img" aria-label="${text(sentence)}" data-explorer="scale"><svg></svg>
       ${drawn}${labels}</div>`;
@@ -118,9 +124,9 @@
     });
   }
 
-  const pays = ({vibration, problem, pays: words}) => [
+  const pays = ({vibration, pays: words}) => [
     vibration && `<span class="rxf-dim">${vibrates(vibration)}</span>`,
-    text(problem), words.map((piece, k) => k % 2 ? `<b><button data-pays data-explorer="pays-${k}"
+    words.map((piece, k) => k % 2 ? `<b><button data-pays data-explorer="pays-${k}"
       title="Press or drag to try such an actuator">${text(piece)}</button>${words[k + 1][0]}</b>`
       : text(k ? piece.slice(1) : piece)).join('')].filter(Boolean).join(' ');
   const vibrates = words => `${text(words[0].toUpperCase() + words.slice(1))}.`;

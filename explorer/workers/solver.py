@@ -146,7 +146,7 @@ class MapTask:
     def run(self, tell: Callable[[Any], None], stop: Callable[[], bool]) -> bool:
         """Reports the part done, 0…1, and a `MapLevel` after each row; True when all were done.
 
-        The last level of a grid has the least between its points, others the lowest of the points.
+        After a grid's last row the least is refined between its points; before, it is the least so far.
         """
         known: dict[tuple[int, int], Lowest] = {}
         history, finest = TrimHistory(), self.steps[-1]
@@ -256,7 +256,7 @@ class MapLevel:
     values: tuple[tuple[tuple[float, ...], ...], ...]
     """All parameters of each point."""
     least: Lowest
-    """Of the whole grid between the points too, from the lowest of them; before that the lowest."""
+    """Of a whole grid refined between its points; before, the least so far."""
     rows: int
     """How many rows are computed, from the lowest."""
 

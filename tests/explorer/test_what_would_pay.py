@@ -82,7 +82,7 @@ def test_a_supposed_actuator_is_dragged_and_stays_in_the_address(
     """Read off the line of the one value; gone with a press."""
     shown = PAY.view(lined)
     assert (shown["suppose"], shown["actuator.pays"]) == (None, False)
-    assert "Compare all kinds" in shown["actuator.kinds"]
+    assert "Compare kinds" in shown["actuator.kinds"]
     assert "Computing" in PAY.view(done(judged, move_supposed(judged, "on")))["suppose"].words
     now = done(lined, move_supposed(lined, "on"))
     assert PAY.view(now) == PAY.view(replace(now))
