@@ -40,7 +40,8 @@
   const TRUST = 'role="button" tabindex="0" data-do="drawer" data-value="trust"';
 
   function draw(line) {
-    const {pieces, status, problem} = line, focused = closest({target: document.activeElement}, '[data-handle], span[data-value=trust]');
+    const {pieces, status, problem} = line;
+    const focused = closest({target: document.activeElement}, '[data-handle], span[data-value=trust]');
     controls.clear();
     menus.clear();
     const words = pieces.map(({text: said, part: name, kind, stale, title, control, menu}) => {

@@ -3,7 +3,8 @@
 // so far, the air that the section meets, and the way of its point beside the static lift curve. Any key outside the
 // panels, or a press on the scene, ends it.
 (() => {
-  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, paced, viewer, outdate, staleMark, calm, closest} = Common;
+  const {DEGREE, text, clamp, lerp, distance, turned, fixed, trace, paced, viewer, calm, closest} = Common;
+  const {outdate, staleMark} = Common;
   const {part} = RX, page = document.documentElement, place = part('ride'), TURN = 16000;
   const find = name => place.querySelector(name);
   const STAYS = 1500;  // [ms] What the turn has cost is read at its end.
@@ -198,8 +199,8 @@
   function drawCost(passed, middle) {
     const cost = RX.state.ride_cost;
     if (!cost?.spent.length) return '';
-    return `<text x="${middle}" y="${middle + 3}" text-anchor="middle" class="rxf-num" data-cost${staleMark(cost.stale)}>${
-        fixed(costSoFar(passed, cost), 1)}</text>
+    const sum = fixed(costSoFar(passed, cost), 1), mark = staleMark(cost.stale);
+    return `<text x="${middle}" y="${middle + 3}" text-anchor="middle" class="rxf-num" data-cost${mark}>${sum}</text>
       <text x="${middle}" y="${middle + 17}" text-anchor="middle">${text(cost.unit)}${
         passed < 360 ? ' so far' : ''}</text>`;
   }

@@ -19,10 +19,12 @@
     const button = card.querySelector('[data-unfold]');
     if (button) button.ariaExpanded = String(Boolean(page.dataset.unfolded?.split(' ').includes('limits')));
     arrange();
-    if (focused && !card.contains(document.activeElement)) card.querySelector(focused)?.focus({preventScroll: true});
+    if (!focused || card.contains(document.activeElement)) return;
+    card.querySelector(focused)?.focus({preventScroll: true});
   });
   // A selector of the same control in the card that is drawn next.
-  const namesOf = (/** @type {any} */ {dataset}) => ['do', 'value', 'unfold', 'mission', 'explorer'].filter(name => name in dataset)
+  const NAMES = ['do', 'value', 'unfold', 'mission', 'explorer'];
+  const namesOf = (/** @type {any} */ {dataset}) => NAMES.filter(name => name in dataset)
     .map(name => `[data-${name}="${dataset[name]}"]`).join('');
 
   function row({buildable, tip, end, reach, mass, earns, sure, mission, problem, over, required}) {
