@@ -141,6 +141,28 @@ def test_the_rotor_has_room_at_all_sizes_in_all_modes(visit: Visit):
             assert 0 < top < bottom < height, (mode, width, height)
 
 
+def test_a_press_on_the_disk_opens_its_section_and_moves_nothing(visit: Visit):
+    watched = visit(size=(1366, 650))
+    watched.quiet()
+    page = watched.page
+
+    def rim() -> list[float]:
+        return watched.at_rest(lambda: page.evaluate(SUBJECT, "/rotor/disk/field"))
+
+    for width, height in ((1366, 650), (1680, 1000)):
+        page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_function("wide => innerWidth === wide", arg=width)
+        watched.answered()
+        before = rim()
+        left, right, top, bottom = before
+        page.mouse.click(left + 0.6 * (right - left), top + 0.6 * (bottom - top))
+        page.wait_for_function("() => RX.state.bar.drawer === 'probe'")
+        watched.answered()
+        assert rim() == pytest.approx(before, abs=1.5), (width, height)
+        page.keyboard.press("Escape")
+        page.wait_for_function("() => !RX.state.bar.drawer")
+
+
 def test_the_chart_of_power_shows_the_bowl_and_all_of_it_on_demand(visit: Visit):
     watched = visit(size=LARGE)
     page = watched.page
