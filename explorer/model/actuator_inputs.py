@@ -218,7 +218,7 @@ def hours_with(hours: Sequence[float], leg: int, time: float) -> tuple[float, ..
     """The hours of a mission with another time of one leg; as they were where less than two legs would be left."""
     changed = list(hours)
     changed[leg] = round(min(max(time, 0.0), LONGEST), _DIGITS)
-    if sum(time > 0.0 for time in changed) < _LEAST_LEGS:
+    if sum(each > 0.0 for each in changed) < _LEAST_LEGS:
         return tuple(hours)
     return tuple(changed)
 
