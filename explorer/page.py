@@ -523,8 +523,8 @@ class Page:
             case PinOrder(order):
                 self.context.pinboard.ask(order)
                 self.context.wake()
-            case PinDesign(inputs):
-                self.context.pin(inputs)
+            case PinDesign(design):
+                self.context.pin(design)
             case _:
                 self.actuator.perform(effect)
 

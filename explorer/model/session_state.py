@@ -123,6 +123,23 @@ class Pins:
     along: bool = True
 
 
+@dataclass(frozen=True)
+class Compared:
+    """A of A/B by what makes it: its inputs, and its design with the actuator on board. None where nothing is A."""
+
+    inputs: Inputs | None
+    design: Design | None
+
+
+def compared_with(pinned: Pinned | Inputs | None) -> Compared:
+    """What A is, or what inputs will be as A."""
+    if pinned is None:
+        return Compared(None, None)
+    if isinstance(pinned, Pinned):
+        return Compared(pinned.inputs, pinned.solution.design)
+    return Compared(pinned, pinned.design())
+
+
 _KEPT_PINS = 4
 """Designs that were A with an actuator on board and are kept, with their solutions."""
 
@@ -147,26 +164,29 @@ class Pinboard:
         else:
             self._asked.append(order)
 
-    def put(self, inputs: Inputs | None) -> None:
-        """Pin these inputs as A, or nothing; takes effect in the next update."""
-        self._put.append(inputs)
+    def put(self, design: Pinned | Inputs | None) -> None:
+        """Pin this design as A, or nothing; takes effect in the next update."""
+        self._put.append(design)
 
-    def put_back(self, inputs: Inputs | None) -> None:
-        """Pin what was A with these inputs, its actuator too; else as `put`."""
-        known = [pinned for pinned in self._before.copy() if pinned.inputs == inputs]
-        self._put.append(known[0] if known else inputs)
+    def put_back(self, compared: Compared) -> None:
+        """Pin what was A, its actuator too; one with an actuator that is kept no longer without it."""
+        known = [pinned for pinned in self._before.copy() if compared_with(pinned) == compared]
+        self._put.append(known[0] if known else compared.inputs)
 
     @property
     def now(self) -> Pins:
         return Pins(self.pinned, self.answer, self.along)
 
     @property
-    def inputs(self) -> Inputs | None:
+    def compared(self) -> Compared:
         """A, or what will be A in the next update."""
-        if waiting := self._put.copy():
-            last = waiting[-1]
-            return last.inputs if isinstance(last, Pinned) else last
-        return None if self.pinned is None else self.pinned.inputs
+        waiting = self._put.copy()
+        return compared_with(waiting[-1] if waiting else self.pinned)
+
+    @property
+    def inputs(self) -> Inputs | None:
+        """The inputs of A, or of what will be A in the next update."""
+        return self.compared.inputs
 
     def act(self, inputs: Inputs, solution: Solution | None) -> PinResult | None:
         """Do what was asked, with what is on the sliders and its answer; None when nothing was.

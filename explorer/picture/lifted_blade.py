@@ -322,7 +322,7 @@ def _fit_from(radius: float, aspect: float, aside: float) -> Camera:
             [x, y, z]
             for x in ends
             for y in (-0.20 * radius, 0.06 * radius)
-            for z in (-0.05 * radius, 0.16 * radius)
+            for z in (-0.05 * radius, 0.12 * radius)
         ]
     )
     camera = framed(rotate(pose.wxyz, box) + pose.position, toward, aspect, _MARGIN)

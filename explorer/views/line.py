@@ -4,7 +4,8 @@ from dataclasses import replace
 from typing import Any
 
 from explorer.model.actuator_inputs import AGAINST
-from explorer.model.session_state import SessionState
+from explorer.model.session_state import Pinned, SessionState, compared_with
+from explorer.model.undo import KeptDesign
 from explorer.parts.results import LineMenu, LineOption, LinePart, LinePiece, LineStatus
 from explorer.text.design_words import flight_name, title_words
 from explorer.text.line import (
@@ -203,16 +204,18 @@ def _design_menu(now: PageState, state: SessionState) -> LineMenu:
     pinned = now.pins.pinned
     built = than_words(state.solution.design, state.baseline.design, pinned=False)
     options = [LineOption(built, "compare", BUILT, pinned is None)]
-    marked = [kept.inputs for kept in now.kept]
+    compared = compared_with(pinned)
+    marked = [_marked(kept) for kept in now.kept]
+    chosen = [compared_with(bookmark) == compared for bookmark in marked]
     if pinned is None:
         options.append(LineOption("this design: keep it as A", "compare", THIS))
-    elif pinned.inputs not in marked:
+    elif not any(chosen):
         title = title_words(pinned.solution.design)
         options.append(LineOption(f"A: {title}", "compare", "a", chosen=True))
-    for k, inputs in enumerate(marked):
-        chosen = pinned is not None and pinned.inputs == inputs
-        title = f"bookmark: {title_words(inputs.design())}, {flight_name(inputs, now.units)}"
-        options.append(LineOption(title, "compare", k, chosen))
+    for k, bookmark in enumerate(marked):
+        blade = title_words(bookmark.solution.design)
+        title = f"bookmark: {blade}, {flight_name(bookmark.inputs, now.units)}"
+        options.append(LineOption(title, "compare", k, chosen[k]))
     return LineMenu("than", "Compared with", options)
 
 
@@ -223,8 +226,13 @@ def compare(now: PageState, wanted: str | int) -> tuple[Effect, ...]:
     if wanted == THIS:
         return (PinOrder("pin"),)
     if isinstance(wanted, int) and wanted < len(now.kept):
-        return (PinDesign(now.kept[wanted].inputs),)
+        return (PinDesign(_marked(now.kept[wanted])),)
     return ()
+
+
+def _marked(kept: KeptDesign) -> Pinned:
+    """A bookmark as A, with the actuator that it had on board."""
+    return Pinned(kept.inputs, kept.solution)
 
 
 def line_text(now: PageState) -> str:

@@ -8,7 +8,7 @@ from explorer.charts.measured import FlownPowers, MeasuredChart
 from explorer.charts.plots import PowerCurve, Range
 from explorer.model.actuator_inputs import HandSettings
 from explorer.model.inputs import Inputs, ViewState, with_optimum
-from explorer.model.session_state import Analyses, Mode, Order, Pins, SessionState
+from explorer.model.session_state import Analyses, Mode, Order, Pinned, Pins, SessionState
 from explorer.model.undo import KeptDesign
 from explorer.model.units import SI, Units, units_of
 from explorer.parts.frame import NoticePart
@@ -218,9 +218,9 @@ class PinOrder:
 
 @dataclass(frozen=True)
 class PinDesign:
-    """Make these inputs A, whatever is on the sliders."""
+    """Make this design A, whatever is on the sliders."""
 
-    inputs: Inputs
+    design: Pinned
 
 
 Effect = MoveSliders | SetGrabbed | SetHand | SetAddress | PinOrder | PinDesign

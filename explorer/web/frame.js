@@ -331,7 +331,7 @@
   const BETWEEN = 4, EDGE = 18;  // [px] From a card and from the edge, which words round the rim need, to the subject.
   // Width over height of what is looked at: rim and helicopter; the lifted blade with the helicopter behind it. And the
   // rim as an ellipse in the box of the aircraft: the upper corners of the box are free.
-  const SHAPE = {aircraft: 2.15, blade: 2.5}, RIM = {centre: .32, wide: .45, high: .33};
+  const SHAPE = {aircraft: 2.15, blade: 2.85}, RIM = {centre: .32, wide: .45, high: .33};
   function measureCover() {
     telling = 0;
     const stage = root.querySelector('.rxf-stage').getBoundingClientRect();
@@ -363,7 +363,8 @@
   }
   // How high the card of power usually reaches [px]: the row of the actuator, in one to three lines, and its scale.
   function usualPower({width, height}) {
-    if (page.hasAttribute('data-flight') && height > 760 && width > 900) return 172;
+    if (page.hasAttribute('data-flight') && height > 760 && width > 900) return 198;
+    if (page.hasAttribute('data-flight') && !small.matches && width <= 560) return 106;  // Below the views.
     if (page.hasAttribute('data-flight') && width > 960) return 42;
     if (page.hasAttribute('data-flight')) return width > 640 ? 58 : 78;
     if (small.matches) return state.vibration ? 70 : 40;

@@ -38,10 +38,11 @@
 
   // The band of the power leads to how far to trust it.
   const TRUST = 'role="button" tabindex="0" data-do="drawer" data-value="trust"';
+  const BAND = 'span[data-value=trust]', WORDS = `[data-handle], ${BAND}`;  // That can be pressed.
 
   function draw(line) {
     const {pieces, status, problem} = line;
-    const focused = closest({target: document.activeElement}, '[data-handle], span[data-value=trust]');
+    const focused = closest({target: document.activeElement}, WORDS);
     controls.clear();
     menus.clear();
     const words = pieces.map(({text: said, part: name, kind, stale, title, control, menu}) => {
@@ -62,7 +63,7 @@
     place.toggleAttribute('data-problem', Boolean(problem));
     document.documentElement.toggleAttribute('data-refused', Boolean(problem));
     if (focused && !focused.isConnected)
-      (focused.dataset.value ? place.querySelector('span[data-value=trust]')
+      (focused.dataset.value ? place.querySelector(BAND)
         : handle(focused.dataset.handle) ?? handle('advance_ratio'))?.focus({preventScroll: true});
     follow();
     clearTimeout(told);
@@ -104,11 +105,11 @@
       const {left, right, top, bottom} = element.getBoundingClientRect();
       return Math.max(left - x, 0, x - right) + Math.abs(y - (top + bottom) / 2);
     };
-    return [...place.querySelectorAll('[data-handle]')].filter(element => element.checkVisibility())
+    return [...place.querySelectorAll(WORDS)].filter(element => element.checkVisibility())
       .reduce((one, other) => away(other) < away(one) ? other : one);
   }
   // A press that hardly moves opens the values, or closes them. Any other is a drag, also where they are open.
-  drag(place, '[data-handle]', (_, event) => {
+  drag(place, WORDS, (_, event) => {
     const {clientX: from, pointerType} = event, pressed = nearest(event);
     const {handle: name} = pressed.dataset, control = controls.get(name);
     const begun = control?.value ?? 0;
@@ -128,19 +129,23 @@
         if (letGo) {
           sliding.flush();
           letGo();
-        } else if (!moved && type === 'pointerup') toggle(name);
+        } else if (!moved && type === 'pointerup') {
+          if (name) toggle(name); else place.querySelector(BAND)?.click();
+        }
       },
     };
   });
   // Where a touch is told as a mouse afterwards, the focus stays in what it has opened.
-  place.addEventListener('mousedown', event => { if (closest(event, '[data-handle]')) event.preventDefault(); });
+  place.addEventListener('mousedown', event => { if (closest(event, WORDS)) event.preventDefault(); });
+  // What a pointer pressed has had its answer.
+  place.addEventListener('click', event => { if (event.detail && closest(event, WORDS)) event.stopPropagation(); }, true);
   // A click without a pointer is that of a screen reader, or of a key on a button.
   place.addEventListener('click', event => {
     const {handle: name} = closest(event, '[data-handle]')?.dataset ?? {};
     if (name && event.detail === 0) toggle(name);
   });
   place.addEventListener('keydown', event => {
-    const trusted = closest(event, 'span[data-value=trust]');
+    const trusted = closest(event, BAND);
     if (trusted && ['Enter', ' '].includes(event.key)) {
       event.preventDefault();
       trusted.click();

@@ -9,7 +9,7 @@ import viser
 
 from explorer.hosting.browser import Bridge
 from explorer.model.inputs import Inputs
-from explorer.model.session_state import Pinboard, SessionState
+from explorer.model.session_state import Pinboard, Pinned, SessionState
 from explorer.model.undo import PowerTracker
 from explorer.model.units import Units, units_of
 from explorer.views.page_state import PageState
@@ -81,9 +81,9 @@ class TabContext:
     def units(self) -> Units:
         return units_of(self.display.view.units, self.controls.aircraft)
 
-    def pin(self, inputs: Inputs | None) -> None:
-        """Pin these inputs as A, whatever is on the sliders; None removes the pin."""
-        self.pinboard.put(inputs)
+    def pin(self, design: Pinned | Inputs | None) -> None:
+        """Pin this design as A, whatever is on the sliders; None removes the pin."""
+        self.pinboard.put(design)
         self.wake()
 
     def download(self, name: str, content: bytes) -> None:

@@ -3,7 +3,6 @@
 import math
 import threading
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -11,7 +10,7 @@ from explorer.colours import THIS
 from explorer.hosting import browser
 from explorer.model.actuator_inputs import ActuatorInputs, HandSettings
 from explorer.model.inputs import Inputs
-from explorer.model.session_state import SessionState
+from explorer.model.session_state import Compared, SessionState
 from explorer.model.undo import History, KeptDesign
 from explorer.model.units import SI, Units
 from explorer.sharing import share
@@ -27,13 +26,6 @@ FIELD = "Take design"
 """Label of the text field that clicks are written to: `take 1`, `drop 1`."""
 MOST_KEPT = 8
 _SPARK = 46.0, 18.0
-
-
-@dataclass(frozen=True)
-class Compared:
-    """A of A/B, with which a step compares; None where nothing is pinned."""
-
-    inputs: Inputs | None
 
 
 Step = tuple[Inputs, ActuatorInputs | None, Compared | None]
@@ -154,7 +146,7 @@ class HistoryPanel:
     def _note(self, pause: float = 0.0) -> None:
         """What was moved since the last update is a step too."""
         present, actuator, compared = self._history.present
-        now = (self._context.inputs(), self._actuator(), Compared(self._context.pinboard.inputs))
+        now = (self._context.inputs(), self._actuator(), self._context.pinboard.compared)
         self._history.present = (present, actuator or now[1], compared or now[2])
         self._history.note(now, pause)
 
@@ -227,8 +219,8 @@ class HistoryPanel:
         inputs, actuator, compared = step or (None, None, None)
         if actuator is not None and actuator != self._actuator():
             self._set_actuator(actuator)
-        if compared is not None and compared.inputs != self._context.pinboard.inputs:
-            self._context.pinboard.put_back(compared.inputs)
+        if compared is not None and compared != self._context.pinboard.compared:
+            self._context.pinboard.put_back(compared)
             self._context.wake()
         if inputs is None or inputs == self._context.inputs():
             self._context.wake()

@@ -32,12 +32,15 @@
     const top = document.elementFromPoint(box.left + box.width / 2, box.top + box.height / 2);
     return !element.disabled && top && !element.contains(top) && !top.contains(element) && !element.parentElement.contains(top);
   }).map(({element}) => name(element));
-  // Less than 44 px high or wide under a finger, with what it catches around it. What a mark in a chart does, a slider does too.
+  // Less than 44 px high or wide under a finger, with what it catches around it. What a mark in a chart does, a slider does too;
+  // of two words of the sentence the nearer one is meant.
+  const worded = element => element.closest('.rxf-line') && element.closest('[data-handle], span[data-value=trust]');
   const narrow = shown.filter(({element, box}) => {
     const from = [box.left + box.width / 2, box.top + box.height / 2], ways = [[box.height, 0, 21], [box.width, 21, 0]];
     return !element.disabled && !element.matches('svg [data-do]') && ways.some(([size, dx, dy]) => size < 43.5 && [-1, 1].some(way => {
       const met = document.elementFromPoint(from[0] + way * dx, from[1] + way * dy);
-      return met && !element.contains(met) && !met.contains(element) && !element.labels?.[0]?.contains(met);
+      return met && !element.contains(met) && !met.contains(element) && !element.labels?.[0]?.contains(met)
+        && !(worded(element) && worded(met));
     }));
   }).map(({element, box}) => `${name(element)} ${Math.round(box.width)}×${Math.round(box.height)}`);
   // The free band of the scene: between what stands over it above and below.

@@ -348,7 +348,7 @@ def test_at_the_end_of_its_turn_a_ride_has_counted_what_stall_costs(watched: Wat
     watched.answered()
     page.evaluate("() => RX.idle(true)")
     page.keyboard.press("5")
-    page.wait_for_function("() => RX.state.ride_cost?.spent.length")
+    page.wait_for_function("() => RX.state.ride_cost?.spent.length && !RX.state.ride_cost.stale")
     words = page.locator("[data-explorer=ride-cost]").inner_text()
     ring = page.locator("[data-explorer=ride] [data-ring]")
     ring.locator("[data-separated]").first.wait_for(state="attached")

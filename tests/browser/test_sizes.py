@@ -50,11 +50,13 @@ TOTAL = "() => RX.state.line.pieces.find(piece => piece.part === 'total-power')?
 
 def found(watched: Watched) -> tuple[dict[str, Any], int]:
     """What is wrong once nothing is stale, and the width of the plan's disk [px]."""
-    watched.page.wait_for_function(
-        "() => !document.querySelector('[data-stale]')", timeout=4 * WAIT
-    )
-    look = f"() => ({{...({MEASURE})(), ...({LEGIBLE})()}})"
-    now: dict[str, Any] = watched.at_rest(lambda: watched.page.evaluate(look))
+    page = watched.page
+    look = f"""() => ({{...({MEASURE})(), ...({LEGIBLE})(),
+        stale: Boolean(document.querySelector('[data-stale]'))}})"""
+    now: dict[str, Any] = {"stale": True}
+    while now["stale"]:  # A search that runs makes numbers stale again at any time.
+        page.wait_for_function("() => !document.querySelector('[data-stale]')", timeout=4 * WAIT)
+        now = watched.at_rest(lambda: page.evaluate(look))
     return {name: now[name] for name in CLEAN}, now["disk"] or 0
 
 

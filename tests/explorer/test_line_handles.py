@@ -9,7 +9,7 @@ import pytest
 
 from explorer.model.actuator_inputs import AGAINST, ActuatorInputs, HandSettings, read_against
 from explorer.model.inputs import LAWS, NOT_ALWAYS, OPENING, Inputs, ViewState
-from explorer.model.session_state import Pinboard, Pinned, Pins, SessionState
+from explorer.model.session_state import Pinboard, Pinned, Pins, SessionState, compared_with
 from explorer.model.sliders import slider
 from explorer.model.stand import StandInputs
 from explorer.model.undo import KeptDesign
@@ -112,7 +112,9 @@ def test_the_design_is_compared_with_the_blade_as_built_a_or_a_bookmark():
     assert marked.title == "bookmark: UH-60A as built + segments 0/−1 at 0.5, µ 0.2, 8.32 t"
     assert press(now, built.value) == ()
     assert press(now, this.value) == (PinOrder("pin"),)
-    assert press(now, marked.value) == (PinDesign(MARKED),)
+    (pin,) = press(now, marked.value)
+    assert isinstance(pin, PinDesign)
+    assert compared_with(pin.design) == compared_with(MARKED)
     assert press(now, 1) == ()  # Deleted meanwhile.
     # A that is a bookmark is named once; another one has a row of its own.
     now = compared(CHANGED, MARKED, kept=[MARKED])
@@ -128,6 +130,22 @@ def test_the_design_is_compared_with_the_blade_as_built_a_or_a_bookmark():
     assert ": same as A" in plain(same)
     assert "than" in menus(same)
     assert "than" not in menus(line(compared(COARSE)).pieces)
+
+
+def test_a_bookmark_is_compared_with_its_actuator():
+    """It was named with it, and compared without."""
+    kept = acting().state
+    assert kept is not None
+    now = replace(compared(CHANGED), kept=(KeptDesign(kept.inputs, kept.solution.light()),))
+    bookmark = menus(line(now).pieces)["than"].options[-1]
+    assert "MFC P1" in bookmark.title
+    (pin,) = press(now, bookmark.value)
+    assert isinstance(pin, PinDesign)
+    assert pin.design.solution.design == kept.solution.design
+    board = Pinboard()
+    board.put(pin.design)
+    board.act(CHANGED, None)
+    assert board.compared == compared_with(pin.design)
 
 
 # In Actuate
@@ -191,14 +209,19 @@ def test_what_was_a_is_a_again_with_its_actuator():
     board = Pinboard()
     for pinned in (carried, bare, None):
         board.pin(pinned)
-    board.put_back(COARSE)
-    assert board.inputs == COARSE
+    with_actuator = compared_with(carried)
+    board.put_back(with_actuator)
+    assert board.compared == with_actuator
+    assert with_actuator != compared_with(COARSE)
     board.act(CHANGED, None)
     assert board.pinned is carried
     board.put(COARSE)
     board.act(CHANGED, None)
     assert board.pinned is not None
     assert board.pinned.solution.design.rotor.blade.carried is None
-    board.put_back(None)
+    board.put_back(compared_with(carried))
+    board.act(CHANGED, None)
+    assert board.pinned is carried
+    board.put_back(compared_with(None))
     board.act(CHANGED, None)
     assert board.pinned is None

@@ -251,9 +251,16 @@ class TestCamera:
         assert 0.65 < np.abs(x).max() < 1.0
         assert np.ptp(y) < 0.25 * np.ptp(x) * aspect
 
-    @pytest.mark.parametrize("aspect", [0.6, 0.9, 1.2, 1.6])
+    @pytest.mark.parametrize("aspect", [0.6, 0.9, 1.2, 1.6, 2.85])
     @pytest.mark.parametrize(
-        "cover", [UNCOVERED, Covered(0.2, 0.1), Covered(0.1, 0.2, left=0.3), USUAL_COVER]
+        "cover",
+        [
+            UNCOVERED,
+            Covered(0.2, 0.1),
+            Covered(0.1, 0.2, left=0.3),
+            Covered(0.2, 0.2, left=0.2, right=0.2),
+            USUAL_COVER,
+        ],
     )
     def test_behind_the_lifted_blade_the_helicopter_is_whole(self, cover: Covered, aspect: float):
         """A narrow canvas cut it at the cabin."""
