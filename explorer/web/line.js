@@ -138,7 +138,9 @@
   // Where a touch is told as a mouse afterwards, the focus stays in what it has opened.
   place.addEventListener('mousedown', event => { if (closest(event, WORDS)) event.preventDefault(); });
   // What a pointer pressed has had its answer.
-  place.addEventListener('click', event => { if (event.detail && closest(event, WORDS)) event.stopPropagation(); }, true);
+  place.addEventListener('click', event => {
+    if (event.detail && closest(event, WORDS)) event.stopPropagation();
+  }, true);
   // A click without a pointer is that of a screen reader, or of a key on a button.
   place.addEventListener('click', event => {
     const {handle: name} = closest(event, '[data-handle]')?.dataset ?? {};
