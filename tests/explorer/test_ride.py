@@ -177,7 +177,7 @@ class TestTurn:
                 # Beside reverse flow angles count from another edge.
                 if min(u[k - 1], u[k], u[(k + 1) % AZIMUTHS]) < 0.0:
                     continue
-                if "below zero" in words:
+                if "from above" in words:
                     assert alpha[k] < -10.0
                     continue
                 assert ("separated" in turn.region[k]) == ("separate" in words)
